@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Pictures of blocks in three dimensions for scripts/render: their surfaces,
-seen along parallel lines and drawn from the farthest to the nearest, perhaps cut
-or moved apart, with the states of their joints on the faces of these."""
+seen along parallel lines, perhaps cut or moved apart, with the states of their
+joints on the faces of these."""
 
 import os
 
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize, to_rgb
 from matplotlib.patches import Patch
 import numpy as np
@@ -24,6 +23,7 @@ STATES = {joint_states.OPEN: RED, joint_states.SLIPPING: ORANGE,
           joint_states.SLIPPED: YELLOW}
 SHARP = np.cos(np.radians(25))       # of edges that are drawn
 DARKEST = 0.55                       # of faces that the light grazes
+PIXELS = 1600                        # along the longer side of a picture
 
 
 def is_in_space(output):
@@ -123,6 +123,56 @@ def section(corners, heights):
     return np.array([point(alone[0], k) for k in others])
 
 
+class Canvas:
+    """Pixels of a picture, each with what is nearest to the viewer there."""
+
+    def __init__(self, low, high):
+        self.low = low
+        self.per_metre = PIXELS / (high - low).max()
+        size = np.ceil((high - low) * self.per_metre).astype(int) + 1
+        self.nearness = np.full(size[::-1], -np.inf)
+        self.image = np.ones((size[1], size[0], 3))
+
+    def pixels(self, corners):
+        return np.column_stack([(corners[:, :2] - self.low) * self.per_metre,
+                                corners[:, 2]])
+
+    def add_triangle(self, corners, colour):
+        a, b, c = self.pixels(corners)
+        flat = np.array([a, b, c])[:, :2]
+        first = np.maximum(np.floor(flat.min(axis=0)).astype(int), 0)
+        last = np.minimum(np.ceil(flat.max(axis=0)).astype(int) + 1,
+                          self.nearness.shape[::-1])
+        area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        if (first >= last).any() or area == 0.0:
+            return
+        x = np.arange(first[0], last[0])[None, :]
+        y = np.arange(first[1], last[1])[:, None]
+        v = ((x - a[0]) * (c[1] - a[1]) - (y - a[1]) * (c[0] - a[0])) / area
+        w = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / area
+        z = a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2])
+        here = np.s_[first[1]:last[1], first[0]:last[0]]
+        shown = ((v >= -1e-9) & (w >= -1e-9) & (v + w <= 1 + 1e-9)
+                 & (z > self.nearness[here]))
+        self.nearness[here][shown] = z[shown]
+        self.image[here][shown] = colour
+
+    def add_line(self, ends, colour, width, lift):
+        """@p lift: how much nearer it is taken to be [m]."""
+        a, b = self.pixels(ends)
+        n = int(2 * np.abs(b - a)[:2].max()) + 2
+        points = a + np.linspace(0, 1, n)[:, None] * (b - a)
+        for dx in range(width):
+            for dy in range(width):
+                x, y = np.rint(points[:, :2] + [dx, dy]
+                               - (width - 1) / 2).astype(int).T
+                inside = ((x >= 0) & (x < self.nearness.shape[1]) & (y >= 0)
+                          & (y < self.nearness.shape[0]))
+                x, y, z = x[inside], y[inside], points[inside, 2] + lift
+                shown = z >= self.nearness[y, x]
+                self.image[y[shown], x[shown]] = colour
+
+
 class SpacePicture:
     """Draws frames with one scale, one view and one range of colours."""
 
@@ -161,7 +211,7 @@ class SpacePicture:
                                         clip=True)
         self.is_panel = len(frames) > 1
         places = np.concatenate([np.concatenate(
-            [p[:, :2] for p, *_ in self.polygons(f)]) for f in frames])
+            [p[:, :2] for p, _ in self.shapes(f)[0]]) for f in frames])
         self.low, self.high = places.min(axis=0), places.max(axis=0)
         self.extent = self.high - self.low
 
@@ -202,9 +252,9 @@ class SpacePicture:
                            for d in range(3)], axis=1)
         return x + self.options.explode * (centre[block] - x.mean(axis=0))
 
-    def polygons(self, frame):
-        """(corners on the page and their nearness, colour, line width) of faces
-        and edges, the nearest last."""
+    def shapes(self, frame):
+        """(corners on the page and their nearness, colour) of faces, and (ends,
+        whether it is sharp) of edges."""
         blocks = frame.blocks
         X = blocks.points
         x = self.apart(blocks, frame.position(self.scale))
@@ -223,13 +273,12 @@ class SpacePicture:
         cut = self.options.cut
         heights = (None if cut is None
                    else cut.sign * (X[:, cut.axis] - cut.value))
-        found = []
+        found, lines = [], []
 
         def add(corners, colour, normal):
             light = np.clip(normal @ self.light, 0.0, 1.0)
-            flat = corners @ page.T
-            found.append((flat, colour * (DARKEST + (1 - DARKEST) * light),
-                          0.0, flat[:, 2].mean()))
+            found.append((corners @ page.T,
+                          colour * (DARKEST + (1 - DARKEST) * light)))
 
         for face, colour, normal in zip(faces, shade, normals):
             if normal @ self.towards <= 0.0:
@@ -247,8 +296,6 @@ class SpacePicture:
                 normal[cut.axis] = cut.sign
                 add(section(x[blocks.cells[k]], heights[blocks.cells[k]]),
                     colours[k], normal)
-        # sharp edges, just before the faces beside them
-        size = np.ptp(x, axis=0).max()
         edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]],
                                         faces[:, [2, 0]]]), axis=1)
         order = np.lexsort((edges[:, 1], edges[:, 0]))
@@ -266,26 +313,25 @@ class SpacePicture:
                 ends = clipped(ends, heights[edges[k]])[:2]
                 if len(ends) < 2:
                     continue
-            flat = ends @ page.T
-            is_sharp = a @ b <= SHARP
-            found.append((flat, np.array([0.2] * 3 if is_sharp
-                                         else [0.6] * 3),
-                          0.7 if is_sharp else 0.2,
-                          flat[:, 2].mean() + 0.01 * size))
-        return [entry[:3] for entry in sorted(found, key=lambda e: e[3])]
+            lines.append((ends @ page.T, a @ b <= SHARP))
+        return found, lines
 
     def draw(self, axes, frame, with_count):
         """One moment; returns the handles of the legend."""
         axes.grid(False)
-        polygons = self.polygons(frame)
-        colours = np.array([colour for _, colour, _ in polygons])
-        axes.add_collection(PolyCollection(
-            [corners[:, :2] for corners, *_ in polygons], facecolors=colours,
-            edgecolors=colours,
-            linewidths=[width or 0.3 for *_, width in polygons]))
         margin = 0.02 * self.extent.max()
-        axes.set_xlim(self.low[0] - margin, self.high[0] + margin)
-        axes.set_ylim(self.low[1] - margin, self.high[1] + margin)
+        low, high = self.low - margin, self.high + margin
+        canvas = Canvas(low, high)
+        faces, lines = self.shapes(frame)
+        for corners, colour in faces:
+            for k in range(1, len(corners) - 1):
+                canvas.add_triangle(corners[[0, k, k + 1]], colour)
+        for ends, is_sharp in lines:
+            canvas.add_line(ends, 0.2 if is_sharp else 0.6,
+                            3 if is_sharp else 1, 0.004 * self.extent.max())
+        axes.imshow(canvas.image, origin="lower",
+                    extent=(low[0], high[0], low[1], high[1]),
+                    interpolation="antialiased")
         axes.set_aspect("equal")
         axes.set_axis_off()
         if self.options.blocks_only or frame.joints is None:
