@@ -51,17 +51,19 @@ namespace quoin
     }
 
     /** Warns of joints that the initial stress takes beyond their strength. */
+    template <int dim>
     void check_initial_joints(const Parameters &parameters,
-                              const Model<2> &model, const State<2> &state,
+                              const Model<dim> &model, const State<dim> &state,
                               Advice &advice)
     {
       if (parameters.model.initial_stresses.empty())
         return;
-      const NodeMap<2> &nodes = model.nodes();
-      const double n          = n_beyond_strength(
-                   model.joints(), state.get<JointHistory>(), nodes.communicator());
+      const NodeMap<dim> &nodes = model.nodes();
+      const double n            = n_beyond_strength(
+                     model.joints(), state.template get<JointHistoryOf<dim>>(),
+                     nodes.communicator());
       Checks(advice, "")
-          .warn_if(n > 0., n, " of ", 2 * nodes.faces().n_global_joints,
+          .warn_if(n > 0., n, " of ", dim * nodes.faces().n_global_joints,
                    " joint points begin with tractions beyond their strength: "
                    "they yield in the first stage. Check the initial stress "
                    "and the strength of these joints.");
@@ -316,18 +318,21 @@ namespace quoin
     }
 
     /** Signs and units of the initial stress of deformable blocks. */
-    void check_initial_stress(const Model<2> &model, Advice &advice)
+    template <int dim>
+    void check_initial_stress(const Model<dim> &model, Advice &advice)
     {
       /** The largest normal stress below which MPa may have been meant [Pa]. */
-      constexpr double few_pascals    = 1e3;
-      const BlockForcesData<2> &cells = model.blocks().cell_data();
-      std::vector<double> largest     = { 0., 0. }; // tension, magnitude
+      constexpr double few_pascals      = 1e3;
+      const BlockForcesData<dim> &cells = model.blocks().cell_data();
+      std::vector<double> largest       = { 0., 0. }; // tension, magnitude
       for (unsigned int c = 0; c < cells.cells.size(); ++c)
       {
-        const auto [xx, yy, xy, zz] = cells.initial_stress_of(c);
-        largest[0]                  = std::max({ largest[0], xx, yy });
-        largest[1]                  = std::max(
-                             { largest[1], std::abs(xx), std::abs(yy), std::abs(xy) });
+        // Not that out of the plane.
+        const auto stress = cells.initial_stress_of(c);
+        for (unsigned int k = 0; k < dim; ++k)
+          largest[0] = std::max(largest[0], stress[k]);
+        for (unsigned int k = 0; k < dim * (dim + 1) / 2; ++k)
+          largest[1] = std::max(largest[1], std::abs(stress[k]));
       }
       dealii::Utilities::MPI::max(largest, model.nodes().communicator(),
                                   largest);
@@ -397,11 +402,8 @@ namespace quoin
     check_ranks(report, model.nodes(), advice);
     check_laws(parameters, advice);
     check_bars(parameters, advice);
-    if constexpr (dim == 2)
-    {
-      check_initial_joints(parameters, model, state, advice);
-      check_initial_stress(model, advice);
-    }
+    check_initial_joints(parameters, model, state, advice);
+    check_initial_stress(model, advice);
     check_materials(parameters, model, advice);
     check_joints(parameters, model, advice);
     if constexpr (dim == 2)

@@ -191,11 +191,25 @@ namespace quoin
 
   namespace
   {
-    /** Range of the initial stress of @p load at the cells of its groups. */
-    std::string stress_text(const LoadParameters &load, const NodeMap<2> &nodes)
+    std::array<double, 4> initial_stress(const LoadParameters &load,
+                                         const dealii::Point<2> &place)
     {
-      const auto groups = groups_of_names(nodes, load.groups, load.name);
-      std::vector<double> low(3, std::numeric_limits<double>::max());
+      return load.initial_stress(place[0], place[1], 0.);
+    }
+    std::array<double, 6> initial_stress(const LoadParameters &load,
+                                         const dealii::Point<3> &place)
+    {
+      return load.initial_stress(place);
+    }
+
+    /** Range of the initial stress of @p load at the cells of its groups. */
+    template <int dim>
+    std::string stress_text(const LoadParameters &load,
+                            const NodeMap<dim> &nodes)
+    {
+      constexpr unsigned int n = dim * (dim + 1) / 2;
+      const auto groups        = groups_of_names(nodes, load.groups, load.name);
+      std::vector<double> low(n, std::numeric_limits<double>::max());
       std::vector<double> minus_high = low;
       for (unsigned int c = 0; c < nodes.cells().size(); ++c)
       {
@@ -203,11 +217,11 @@ namespace quoin
             && std::count(groups.begin(), groups.end(), nodes.cells().group[c])
                    == 0)
           continue;
-        dealii::Point<2> centre;
+        dealii::Point<dim> centre;
         for (const unsigned int node : nodes.cells().nodes[c])
-          centre += nodes.point(node) / 3.;
-        const auto stress = load.initial_stress(centre[0], centre[1], 0.);
-        for (unsigned int k = 0; k < 3; ++k)
+          centre += nodes.point(node) / (dim + 1.);
+        const auto stress = initial_stress(load, centre);
+        for (unsigned int k = 0; k < n; ++k)
         {
           low[k]        = std::min(low[k], stress[k]);
           minus_high[k] = std::min(minus_high[k], -stress[k]);
@@ -216,8 +230,11 @@ namespace quoin
       dealii::Utilities::MPI::min(low, nodes.communicator(), low);
       dealii::Utilities::MPI::min(minus_high, nodes.communicator(), minus_high);
       std::string text;
-      const char *names[] = { "xx", "yy", "xy" };
-      for (unsigned int k = 0; k < 3 && low[0] <= -minus_high[0]; ++k)
+      const std::vector<std::string> names
+          = dim == 2 ? std::vector<std::string>{ "xx", "yy", "xy" }
+                     : std::vector<std::string>{ "xx", "yy", "zz",
+                                                 "xy", "xz", "yz" };
+      for (unsigned int k = 0; k < n && low[0] <= -minus_high[0]; ++k)
         text += text_of(k == 0 ? ": " : ", ", names[k], " ",
                         range_text(low[k], -minus_high[k]));
       return text.empty() ? text : text + " Pa";
@@ -249,9 +266,8 @@ namespace quoin
         text += text_of(", moving, over ", load.shape->width, " m");
       if (load.type == LoadType::free_field)
         text += ", on the base " + load.base;
-      if constexpr (dim == 2)
-        if (load.type == LoadType::initial_stress)
-          text += stress_text(load, nodes);
+      if (load.type == LoadType::initial_stress)
+        text += stress_text(load, nodes);
       for (const StageParameters &stage : parameters.stages)
         if (is_in_pattern(stage, load))
           text += ", times the factor that stage " + stage.name + " seeks";

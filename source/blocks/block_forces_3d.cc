@@ -15,47 +15,19 @@ namespace quoin
   namespace
   {
 
-    SpaceTensor elastic_stress(const SpaceStiffness &stiffness,
-                               const double (&e)[6])
-    {
-      SpaceTensor s;
-      for (unsigned int i = 0; i < 6; ++i)
-        s[i] = 2. * stiffness.mu * e[i]
-               + (i < 3 ? stiffness.lambda * (e[0] + e[1] + e[2]) : 0.);
-      return s;
-    }
-
-    /** R s R^T: from the rotating frame to the fixed one. */
-    SpaceTensor to_global(const double (&R)[3][3], const SpaceTensor &s)
-    {
-      SpaceTensor result{};
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          for (unsigned int k = 0; k < 3; ++k)
-            for (unsigned int l = 0; l < 3; ++l)
-              result[symmetric_index[i][j]]
-                  += R[i][k] * s[symmetric_index[k][l]] * R[j][l];
-      return result;
-    }
-
-    void copy(const SpaceTensor &from, double (&to)[6])
-    {
-      std::copy(from.begin(), from.end(), to);
-    }
-
     /** Rate of a polar decomposition F = R U. */
     struct PolarRate
     {
       double spin[3]; /**< axial vector of R^T dR/dt */
-      double U[6];    /**< dU/dt */
+      SpaceTensor U;  /**< dU/dt */
 
       /** @p A: R^T dF/dt. */
-      PolarRate(const PolarDecomposition<OneLane> &polar, const double (&e)[6],
-                const double (&A)[3][3])
+      PolarRate(const SpaceStrain &strain, const double (&A)[3][3])
       {
+        const SpaceTensor &e = strain.e;
         const double w[3]
             = { A[2][1] - A[1][2], A[0][2] - A[2][0], A[1][0] - A[0][1] };
-        polar.solve_spin(w, spin);
+        strain.polar.solve_spin(w, spin);
         for (unsigned int c = 0; c < 3; ++c)
         {
           double column[3], turned[3];
@@ -87,6 +59,7 @@ namespace quoin
     tiles.clear();
     chunks.clear();
     chunk_nodes.clear();
+    plastic_cells.clear();
     offsets.clear();
     lane_stress.clear();
 
@@ -102,18 +75,25 @@ namespace quoin
              && (first_node[end + 1] - first_node[begin]) * node_bytes
                     <= options.tile_bytes)
         ++end;
-      const std::size_t begin_chunk = chunks.size();
+      const std::size_t begin_chunk   = chunks.size();
+      const std::size_t begin_plastic = plastic_cells.size();
       std::vector<std::vector<unsigned int>> members(data.stiffness.size());
       for (unsigned int cell = first_cell[begin]; cell < first_cell[end];
            ++cell)
         members[data.cell_stiffness.empty() ? 0 : data.cell_stiffness[cell]]
             .push_back(cell);
       for (unsigned int s = 0; s < members.size(); ++s)
-        append_chunks(members[s], s, options.max_run_cells);
+        if (data.law(s))
+          plastic_cells.insert(plastic_cells.end(), members[s].begin(),
+                               members[s].end());
+        else
+          append_chunks(members[s], s, options.max_run_cells);
       tiles.push_back({ { first_node[begin], first_node[end] },
                         { first_cell[begin], first_cell[end] },
                         begin_chunk,
-                        chunks.size() });
+                        chunks.size(),
+                        begin_plastic,
+                        plastic_cells.size() });
       begin = end;
     }
   }
@@ -212,20 +192,26 @@ namespace quoin
 
   double BlockForces<3>::add_forces(const unsigned int tile,
                                     const NodeRecord<3> *nodes,
-                                    PlasticHistory &,
+                                    PlasticHistory &history,
                                     NodeVector<3> *force) const
   {
     if (n_lanes == 8)
       add_forces_in_lanes<8>(tiles[tile], nodes, force);
     else
       add_forces_in_lanes<4>(tiles[tile], nodes, force);
-    return 0.;
+    double dissipated = 0.;
+    for (std::size_t k = tiles[tile].begin_plastic; k < tiles[tile].end_plastic;
+         ++k)
+      dissipated
+          += add_plastic_forces(data, plastic_cells[k], nodes, history, force);
+    return dissipated;
   }
 
   void BlockForces<3>::add_stiffness_bound(
       const State<3> &state, const NodeRatio &,
       std::vector<NodeStiffness<3>> &stiffness) const
   {
+    const auto *plastic = state.find<PlasticHistory>();
     for (unsigned int c = 0; c < data.cells.size(); ++c)
     {
       const auto &nodes = data.cells[c];
@@ -236,6 +222,8 @@ namespace quoin
               = state.nodes[nodes[k + 1]].X[d] - state.nodes[nodes[0]].X[d];
       Tetrahedron<OneLane> cell;
       cell.set_edges(edges);
+      if (plastic && data.law_of(c))
+        cell.flow(plastic->space_cells[c].inverse_stretch);
       // With a quarter of its mass at each node; the density cancels out.
       const double share
           = largest_eigenvalue_squared_frequency(cell, data.stiffness_of(c), 1.)
@@ -243,65 +231,6 @@ namespace quoin
       for (const unsigned int node : nodes)
         for (unsigned int d = 0; d < 3; ++d)
           stiffness[node][d] += share;
-    }
-  }
-
-  CellMotion cell_motion(const BlockForcesData<3> &data,
-                         const NodeRecord<3> *nodes, const std::size_t cell)
-  {
-    const auto &n = data.cells[cell];
-    double e[3][3], d[3][3];
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-      {
-        e[k][i] = nodes[n[k + 1]].X[i] - nodes[n[0]].X[i];
-        d[k][i] = nodes[n[k + 1]].u[i] - nodes[n[0]].u[i];
-      }
-    CellMotion motion;
-    motion.geometry.set_edges(e);
-    motion.geometry.gradient(d, motion.polar.H);
-    motion.polar.find_tensors();
-    motion.polar.find_trace();
-    return motion;
-  }
-
-  void add_cell_forces(const BlockForcesData<3> &data, const std::size_t cell,
-                       const Tetrahedron<OneLane> &geometry,
-                       const double (&R)[3][3], const double (&T)[3][3],
-                       NodeVector<3> *force)
-  {
-    double P[3][3], f[3][3];
-    for (unsigned int r = 0; r < 3; ++r)
-      for (unsigned int c = 0; c < 3; ++c)
-        P[r][c]
-            = -(R[r][0] * T[0][c] + R[r][1] * T[1][c] + R[r][2] * T[2][c]) / 6.;
-    geometry.nodal_forces(P, f);
-    const auto &n = data.cells[cell];
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-      {
-        force[n[k + 1]].v[i] += f[k][i];
-        force[n[0]].v[i] -= f[k][i];
-      }
-  }
-
-  void add_forces_by_cell(const BlockForces<3> &blocks, const unsigned int tile,
-                          const NodeRecord<3> *nodes, NodeVector<3> *force)
-  {
-    const BlockForcesData<3> &data = blocks.cell_data();
-    const NodeRange cells          = blocks.tile_cells(tile);
-    for (std::size_t k = cells.begin; k < cells.end; ++k)
-    {
-      const CellMotion motion = cell_motion(data, nodes, k);
-      double R[3][3], e[6], S[6], T[3][3];
-      motion.polar.rotation_and_strain(R, e);
-      copy(data.initial_stress_of(k), S);
-      motion.polar.turning_stress(S, e, T);
-      const SpaceTensor s = elastic_stress(data.stiffness_of(k), e);
-      for (unsigned int r = 0; r < 3; ++r)
-        for (unsigned int c = 0; c < 3; ++c)
-          T[r][c] += s[symmetric_index[r][c]];
-      add_cell_forces(data, k, motion.geometry, R, T, force);
     }
   }
 
@@ -315,9 +244,10 @@ namespace quoin
          ++k)
     {
       const CellMotion motion = cell_motion(data, nodes, k);
-      const auto &n           = data.cells[k];
-      double R[3][3], e[6], d[3][3], L[3][3], A[3][3], S[6], T[3][3];
-      motion.polar.rotation_and_strain(R, e);
+      const SpaceStrain strain(motion.H);
+      const auto &R = strain.R;
+      const auto &n = data.cells[k];
+      double d[3][3], L[3][3], A[3][3], T[3][3];
       for (unsigned int q = 0; q < 3; ++q)
         for (unsigned int i = 0; i < 3; ++i)
           d[q][i] = velocity[n[q + 1]].v[i] - velocity[n[0]].v[i];
@@ -325,12 +255,11 @@ namespace quoin
       for (unsigned int r = 0; r < 3; ++r)
         for (unsigned int c = 0; c < 3; ++c)
           A[r][c] = R[0][r] * L[0][c] + R[1][r] * L[1][c] + R[2][r] * L[2][c];
-      const PolarRate rate(motion.polar, e, A);
+      const PolarRate rate(strain, A);
       SpaceTensor s = elastic_stress(data.stiffness_of(k), rate.U);
       for (double &component : s)
         component *= beta;
-      copy(s, S);
-      motion.polar.turning_stress(S, e, T);
+      strain.turning_stress(s, T);
       add_cell_forces(data, k, motion.geometry, R, T, force);
     }
   }
@@ -356,17 +285,20 @@ namespace quoin
                                  const bool with_stiffness) const
   {
     const CellMotion motion = cell_motion(data, nodes, cell);
-    const auto &polar       = motion.polar;
+    const SpaceStrain strain(motion.H);
+    const auto &polar       = strain.polar;
+    const auto &R           = strain.R;
     const double volume     = motion.geometry.det / 6.;
     const SpaceStiffness &C = data.stiffness_of(cell);
-    double R[3][3], e[6], S0[6], T[3][3];
-    polar.rotation_and_strain(R, e);
-    copy(data.initial_stress_of(cell), S0);
+    double e[6], S0[6], T[3][3];
+    std::copy(strain.e.begin(), strain.e.end(), e);
+    const SpaceTensor initial = data.initial_stress_of(cell);
+    std::copy(initial.begin(), initial.end(), S0);
     polar.turning_stress(S0, e, T);
     double w[3], y[3]; // of the turning stress
     polar.commutator(S0, e, w);
     polar.solve_spin(w, y);
-    const SpaceTensor elastic = elastic_stress(C, e);
+    const SpaceTensor elastic = elastic_stress(C, strain.e);
     for (unsigned int r = 0; r < 3; ++r)
       for (unsigned int c = 0; c < 3; ++c)
         T[r][c] += elastic[symmetric_index[r][c]];
@@ -407,9 +339,9 @@ namespace quoin
         for (unsigned int r = 0; r < 3; ++r)
           for (unsigned int c = 0; c < 3; ++c)
             A[r][c] = R[i][r] * g[k][c];
-        const PolarRate rate(polar, e, A);
-        std::copy(rate.U, rate.U + 6, dU);
-        const SpaceTensor dS = elastic_stress(C, dU);
+        const PolarRate rate(strain, A);
+        std::copy(rate.U.begin(), rate.U.end(), dU);
+        const SpaceTensor dS = elastic_stress(C, rate.U);
         // From (tr U I - U) y = w.
         double dw[3], dy[3];
         polar.commutator(S0, dU, dw);
@@ -439,72 +371,10 @@ namespace quoin
     return true;
   }
 
-  double strain_energy(const BlockForces<3> &blocks, const NodeRecord<3> *nodes,
-                       const PlasticHistory &)
-  {
-    const BlockForcesData<3> &data = blocks.cell_data();
-    double energy                  = 0.;
-    for (std::size_t k = 0; k < data.cells.size(); ++k)
-    {
-      const CellMotion motion = cell_motion(data, nodes, k);
-      double R[3][3], e[6];
-      motion.polar.rotation_and_strain(R, e);
-      const SpaceTensor s  = elastic_stress(data.stiffness_of(k), e);
-      const SpaceTensor s0 = data.initial_stress_of(k);
-      double density       = 0.;
-      for (unsigned int i = 0; i < 6; ++i)
-        density += (i < 3 ? 1. : 2.) * (0.5 * s[i] + s0[i]) * e[i];
-      energy += motion.geometry.det / 6. * density;
-    }
-    return energy;
-  }
-
-  SpaceTensor cell_stress(const BlockForces<3> &blocks,
-                          const NodeRecord<3> *nodes, const PlasticHistory &,
-                          const std::size_t cell, SpaceTensor *strain)
-  {
-    const BlockForcesData<3> &data = blocks.cell_data();
-    double R[3][3], e[6];
-    cell_motion(data, nodes, cell).polar.rotation_and_strain(R, e);
-    if (strain)
-      *strain = to_global(R, { e[0], e[1], e[2], e[3], e[4], e[5] });
-    SpaceTensor s        = elastic_stress(data.stiffness_of(cell), e);
-    const SpaceTensor s0 = data.initial_stress_of(cell);
-    for (unsigned int i = 0; i < 6; ++i)
-      s[i] += s0[i];
-    return to_global(R, s);
-  }
-
-  void cell_stresses(const BlockForces<3> &blocks, const NodeRecord<3> *nodes,
-                     const PlasticHistory &history,
-                     std::vector<SpaceTensor> &stress,
-                     std::vector<SpaceTensor> &strain)
-  {
-    const std::size_t n_cells = blocks.cell_data().cells.size();
-    stress.resize(n_cells);
-    strain.resize(n_cells);
-    for (std::size_t k = 0; k < n_cells; ++k)
-      stress[k] = cell_stress(blocks, nodes, history, k, &strain[k]);
-  }
-
-  unsigned int first_inverted_cell(const BlockForces<3> &blocks,
-                                   const NodeRecord<3> *nodes)
-  {
-    const BlockForcesData<3> &data = blocks.cell_data();
-    unsigned int k                 = 0;
-    for (; k < data.cells.size(); ++k)
-    {
-      const CellMotion motion = cell_motion(data, nodes, k);
-      if (!(motion.geometry.det > 0.) || !(motion.polar.j > -1.))
-        break;
-    }
-    return k;
-  }
-
   void BlockForces<3>::prepare(State<3> &state) const
   {
     if (!state.find<PlasticHistory>())
-      state.add<PlasticHistory>();
+      state.add<PlasticHistory>() = initial_history(*this);
   }
 
   double BlockForces<3>::stored_energy(const State<3> &state) const

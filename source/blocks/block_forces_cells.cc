@@ -54,7 +54,7 @@ namespace quoin
     PlasticHistory history;
     if (!data.is_plastic())
       return history;
-    history.resize(data.cells.size());
+    history.resize<2>(data.cells.size());
     for (unsigned int k = 0; k < data.cells.size(); ++k)
       forget_history(blocks, k, history);
     return history;

@@ -35,20 +35,29 @@ namespace quoin
   PlasticStep update_cell(const BlockForcesData<2> &data, std::size_t cell,
                           const PlaneTensor &strain, PlasticHistory &history);
 
-  /** Geometry, rotation and strain of a tetrahedron. */
+  /** Geometry of a tetrahedron, and its displacement gradient. */
   struct CellMotion
   {
     Tetrahedron<OneLane> geometry;
-    PolarDecomposition<OneLane> polar;
+    double H[3][3];
   };
   CellMotion cell_motion(const BlockForcesData<3> &data,
                          const NodeRecord<3> *nodes, std::size_t cell);
+
+  SpaceTensor elastic_stress(const SpaceStiffness &stiffness,
+                             const SpaceTensor &e);
 
   /** Adds the forces of a first Piola-Kirchhoff stress R T [Pa]. */
   void add_cell_forces(const BlockForcesData<3> &data, std::size_t cell,
                        const Tetrahedron<OneLane> &geometry,
                        const double (&R)[3][3], const double (&T)[3][3],
                        NodeVector<3> *force);
+
+  /** Updates @p history of a cell with a yield law, adds its forces and returns
+      the energy that this dissipates [J]. */
+  double add_plastic_forces(const BlockForcesData<3> &data, std::size_t cell,
+                            const NodeRecord<3> *nodes, PlasticHistory &history,
+                            NodeVector<3> *force);
 } // namespace quoin
 
 #endif

@@ -8,14 +8,15 @@
 
 namespace quoin
 {
-  Construction::Construction(Model<2> &model,
-                             const std::vector<StageParameters> &stages)
+  template <int dim>
+  Construction<dim>::Construction(Model<dim> &model,
+                                  const std::vector<StageParameters> &stages)
     : model(model), at_start(model.properties()),
       absent_at_start(find_groups(model.nodes().table(),
                                   model.parameters().absent_groups,
                                   "section 'Stages'"))
   {
-    const BlockTable<2> &table = model.nodes().table();
+    const BlockTable<dim> &table = model.nodes().table();
     for (unsigned int i = 0; i < stages.size(); ++i)
     {
       const StageParameters &stage = stages[i];
@@ -41,13 +42,15 @@ namespace quoin
       find_properties(i, stages[i]);
   }
 
-  void Construction::restart()
+  template <int dim>
+  void Construction<dim>::restart()
   {
-    restore(0, ConstructionState());
+    restore(0, ConstructionState<dim>());
   }
 
-  void Construction::restore(const unsigned int n,
-                             const ConstructionState &state)
+  template <int dim>
+  void Construction<dim>::restore(const unsigned int n,
+                                  const ConstructionState<dim> &state)
   {
     const auto changed = [&](const unsigned int last)
     {
@@ -62,7 +65,9 @@ namespace quoin
     n_begun = n;
   }
 
-  ModelProperties Construction::properties_after(const unsigned int n) const
+  template <int dim>
+  ModelProperties
+  Construction<dim>::properties_after(const unsigned int n) const
   {
     if (n == 0)
       return at_start;
@@ -71,22 +76,24 @@ namespace quoin
                                : reduced(last.properties, 1. / last.strength);
   }
 
-  void Construction::resume_stage(const unsigned int stage,
-                                  const State<2> &state)
+  template <int dim>
+  void Construction<dim>::resume_stage(const unsigned int stage,
+                                       const State<dim> &state)
   {
-    restore(stage + 1, state.get<ConstructionState>());
+    restore(stage + 1, state.template get<ConstructionState<dim>>());
   }
 
-  void Construction::begin_stage(const unsigned int stage, Solver<2> &solver,
-                                 State<2> &state)
+  template <int dim>
+  void Construction<dim>::begin_stage(const unsigned int stage,
+                                      Solver<dim> &solver, State<dim> &state)
   {
     const Step &step = steps[stage];
-    restore(stage, state.get<ConstructionState>());
-    auto &held = state.get<ConstructionState>().held;
-    for (HeldForces &item : held)
+    restore(stage, state.template get<ConstructionState<dim>>());
+    auto &held = state.template get<ConstructionState<dim>>().held;
+    for (HeldForces<dim> &item : held)
       item.left = item.left_at_end;
     held.erase(std::remove_if(held.begin(), held.end(),
-                              [](const HeldForces &item)
+                              [](const HeldForces<dim> &item)
                               { return item.left == 0.; }),
                held.end());
     if (step.takes || step.places || step.changes)
@@ -104,20 +111,22 @@ namespace quoin
     if (!step.changes
         && step.strength != (stage == 0 ? 1. : steps[stage - 1].strength))
       model.set_properties(properties_after(stage + 1),
-                           state.get<ConstructionState>());
-    for (HeldForces &item : held)
+                           state.template get<ConstructionState<dim>>());
+    for (HeldForces<dim> &item : held)
       item.left_at_end = std::min(item.left, 1. - step.release);
     n_begun = stage + 1;
   }
 
-  double Construction::stored_energy(const State<2> &state) const
+  template <int dim>
+  double Construction<dim>::stored_energy(const State<dim> &state) const
   {
     return model.blocks().stored_energy(state)
            + model.joints().stored_energy(state);
   }
 
+  template <int dim>
   std::vector<unsigned int>
-  Construction::blocks_in(const std::vector<bool> &groups) const
+  Construction<dim>::blocks_in(const std::vector<bool> &groups) const
   {
     std::vector<unsigned int> result;
     for (unsigned int b = 0; b < model.nodes().table().n_blocks(); ++b)
@@ -126,32 +135,33 @@ namespace quoin
     return result;
   }
 
-  bool Construction::is_in(const unsigned int block,
-                           const std::vector<bool> &groups) const
+  template <int dim>
+  bool Construction<dim>::is_in(const unsigned int block,
+                                const std::vector<bool> &groups) const
   {
     return groups[model.nodes().table().group[block]];
   }
 
-  void Construction::take_away(const Step &step, Solver<2> &solver,
-                               State<2> &state) const
+  template <int dim>
+  void Construction<dim>::take_away(const Step &step, Solver<dim> &solver,
+                                    State<dim> &state) const
   {
-    const MatchedJoints &joints = model.joints();
-    AlignedArray<NodeVector<2>> held(state.nodes.size(),
-                                     NodeVector<2>{ { 0., 0. } });
-    AlignedArray<NodeVector<2>> lost = held; // of excavated joints
-    for (unsigned int i = 0; i < joints.segments().size(); ++i)
+    const auto &joints = model.joints();
+    AlignedArray<NodeVector<dim>> held(state.nodes.size(), NodeVector<dim>{});
+    AlignedArray<NodeVector<dim>> lost = held; // of excavated joints
+    for (unsigned int i = 0; i < joint_faces(joints).size(); ++i)
     {
       if (is_at_absent_block(model, i, state))
         continue;
-      const JointNodes<2> &face
-          = model.nodes().faces().joints[joints.segments()[i].face];
+      const JointNodes<dim> &face
+          = model.nodes().faces().joints[joint_faces(joints)[i].face];
       const bool lower = step.excavate[face.groups[0]];
       const bool upper = step.excavate[face.groups[1]];
       if (!lower && !upper)
         continue;
       add_traction_forces(joints, i, state,
                           lower != upper ? held.data() : lost.data());
-      detach_joint(i, state.get<JointHistory>());
+      detach_joint(i, state.template get<JointHistoryOf<dim>>());
     }
     for (auto *forces : { &held, &lost })
       model.nodes().exchange().add_to_owners(forces->data());
@@ -159,7 +169,7 @@ namespace quoin
     // step. The held forces on blocks that stay book it again; that on
     // excavated blocks is part of the kinetic energy that is removed.
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         state.energy.external -= 0.5 * state.previous_time_step
                                  * (held[i].v[d] + lost[i].v[d])
                                  * state.velocity[i].v[d];
@@ -173,35 +183,43 @@ namespace quoin
     bring_to_rest(model, blocks, state);
     model.nodes().exchange().update_ghosts(state.nodes.data());
 
-    HeldForces item;
+    HeldForces<dim> item;
     const auto absent = absent_nodes(model, state);
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         item.force.push_back(absent[i] ? 0. : held[i].v[d]);
-    for (HeldForces &earlier : state.get<ConstructionState>().held)
+    for (HeldForces<dim> &earlier :
+         state.template get<ConstructionState<dim>>().held)
       for (std::size_t i = 0; i < earlier.force.size(); ++i)
-        if (absent[i / 2])
+        if (absent[i / dim])
           earlier.force[i] = 0.;
-    state.get<ConstructionState>().held.push_back(std::move(item));
+    state.template get<ConstructionState<dim>>().held.push_back(
+        std::move(item));
   }
 
-  void Construction::place(const Step &step, State<2> &state) const
+  template <int dim>
+  void Construction<dim>::place(const Step &step, State<dim> &state) const
   {
-    const MatchedJoints &joints = model.joints();
-    const auto blocks           = blocks_in(step.fill);
+    const auto &joints = model.joints();
+    const auto blocks  = blocks_in(step.fill);
     for (const unsigned int block : blocks)
       state.block_marks[block] = block_mark::present;
-    model.clear_initial_stress(step.fill, state.get<ConstructionState>());
-    model.set_properties(model.properties(), state.get<ConstructionState>());
+    model.clear_initial_stress(step.fill,
+                               state.template get<ConstructionState<dim>>());
+    model.set_properties(model.properties(),
+                         state.template get<ConstructionState<dim>>());
     place_blocks(model, blocks, state);
     model.nodes().exchange().update_ghosts(state.nodes.data());
-    for (unsigned int i = 0; i < joints.segments().size(); ++i)
+    for (unsigned int i = 0; i < joint_faces(joints).size(); ++i)
     {
-      const JointNodes<2> &face
-          = model.nodes().faces().joints[joints.segments()[i].face];
+      const JointNodes<dim> &face
+          = model.nodes().faces().joints[joint_faces(joints)[i].face];
       if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
           && !is_at_absent_block(model, i, state))
         begin_joint_anew(joints, i, state);
     }
   }
+
+  template class Construction<2>;
+  template class Construction<3>;
 } // namespace quoin

@@ -38,16 +38,17 @@ namespace quoin
     return { placed.begin(), placed.end() };
   }
 
-  void Construction::check_borders(const Step &step,
-                                   const std::vector<bool> &groups,
-                                   const std::string &parameter) const
+  template <int dim>
+  void Construction<dim>::check_borders(const Step &step,
+                                        const std::vector<bool> &groups,
+                                        const std::string &parameter) const
   {
     // The first cell of all ranks whose group differs from its block's.
-    const NodeMap<2> &nodes         = model.nodes();
-    const BlockTable<2> &table      = model.nodes().table();
+    const NodeMap<dim> &nodes       = model.nodes();
+    const BlockTable<dim> &table    = model.nodes().table();
     const unsigned int n_groups     = table.group_names.size();
     std::array<unsigned int, 2> met = { { n_groups, n_groups } };
-    const LocalCells<2> &cells      = nodes.cells();
+    const LocalCells<dim> &cells    = nodes.cells();
     for (unsigned int c = 0; c < cells.size() && met[0] == n_groups; ++c)
     {
       const unsigned int one   = table.group[nodes.blocks().block_of_cell(c)];
@@ -70,7 +71,8 @@ namespace quoin
                        "joint to a set of section 'Joints'.");
   }
 
-  void Construction::check_presence()
+  template <int dim>
+  void Construction<dim>::check_presence()
   {
     const auto &group_names   = model.nodes().table().group_names;
     std::vector<bool> present = absent_at_start;
@@ -110,7 +112,8 @@ namespace quoin
     }
   }
 
-  std::vector<bool> Construction::absent_in_the_end() const
+  template <int dim>
+  std::vector<bool> Construction<dim>::absent_in_the_end() const
   {
     std::vector<bool> absent = absent_at_start;
     for (const Step &step : steps)
@@ -120,8 +123,9 @@ namespace quoin
     return absent;
   }
 
-  void Construction::find_properties(const unsigned int stage,
-                                     const StageParameters &parameters)
+  template <int dim>
+  void Construction<dim>::find_properties(const unsigned int stage,
+                                          const StageParameters &parameters)
   {
     Step &step      = steps[stage];
     step.properties = stage == 0 ? at_start : steps[stage - 1].properties;
@@ -131,9 +135,10 @@ namespace quoin
       change_joints(set, other, step);
   }
 
-  void Construction::change_material(const std::string &group,
-                                     const std::string &material,
-                                     Step &step) const
+  template <int dim>
+  void Construction<dim>::change_material(const std::string &group,
+                                          const std::string &material,
+                                          Step &step) const
   {
     const auto &materials = step.properties.materials;
     const unsigned int m  = position(materials, material);
@@ -169,8 +174,10 @@ namespace quoin
     now = m;
   }
 
-  void Construction::change_joints(const std::string &set,
-                                   const std::string &other, Step &step) const
+  template <int dim>
+  void Construction<dim>::change_joints(const std::string &set,
+                                        const std::string &other,
+                                        Step &step) const
   {
     const std::string where
         = step.where + ": 'Joint properties' has " + set + ":" + other;
@@ -193,4 +200,19 @@ namespace quoin
     now.law     = wanted.law;
     now.damping = wanted.damping;
   }
+
+  template void Construction<2>::check_borders(const Step &,
+                                               const std::vector<bool> &,
+                                               const std::string &) const;
+  template void Construction<2>::check_presence();
+  template std::vector<bool> Construction<2>::absent_in_the_end() const;
+  template void Construction<2>::find_properties(unsigned int,
+                                                 const StageParameters &);
+  template void Construction<3>::check_borders(const Step &,
+                                               const std::vector<bool> &,
+                                               const std::string &) const;
+  template void Construction<3>::check_presence();
+  template std::vector<bool> Construction<3>::absent_in_the_end() const;
+  template void Construction<3>::find_properties(unsigned int,
+                                                 const StageParameters &);
 } // namespace quoin

@@ -239,12 +239,10 @@ namespace quoin
       state.unbalanced_ratio = stepper.unbalanced_ratio(state, context, sums);
       this->check_finite(state);
       check_cells(model, state, stage.loads);
+      check_time_step(state);
       if constexpr (dim == 2)
-      {
-        check_time_step(state);
         if (all_beams)
           all_beams->check_finite(state);
-      }
     }
     time_shares.lap(energy_phase);
   }

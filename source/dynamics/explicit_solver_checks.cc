@@ -59,19 +59,25 @@ namespace quoin
       remove_blocks(found, state);
   }
 
-  template <>
-  void ExplicitSolver<2>::check_time_step(const State<2> &state) const
+  template <int dim>
+  void ExplicitSolver<dim>::check_time_step(const State<dim> &state) const
   {
-    double flowed = 0.;
-    for (const PlasticCell &cell : state.get<PlasticHistory>().cells)
-      for (unsigned int i = 0; i < 3; ++i)
-        flowed = std::max(flowed, std::abs(cell.inverse_stretch[i]));
+    double flowed                 = 0.;
+    const PlasticHistory &plastic = state.template get<PlasticHistory>();
+    if constexpr (dim == 2)
+      for (const PlasticCell &cell : plastic.cells)
+        for (unsigned int i = 0; i < 3; ++i)
+          flowed = std::max(flowed, std::abs(cell.inverse_stretch[i]));
+    else
+      for (const SpacePlasticCell &cell : plastic.space_cells)
+        for (const double component : cell.inverse_stretch)
+          flowed = std::max(flowed, std::abs(component));
     // The bound takes as long as some steps, and small flow changes it little.
     if (dealii::Utilities::MPI::max(flowed, communicator) < 0.05)
       return;
     const double eigenvalue = model.stability_at(state).largest_eigenvalue(
         node_mass, rigid_stage.mass_factor);
-    const double critical = StableTimeStep<2>::critical(
+    const double critical = StableTimeStep<dim>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
     if (time_step <= critical)
@@ -162,6 +168,8 @@ namespace quoin
                                   state.template get<RigidBlockStates>(), 1.);
   }
 
+  template void ExplicitSolver<2>::check_time_step(const State<2> &) const;
+  template void ExplicitSolver<3>::check_time_step(const State<3> &) const;
   template void ExplicitSolver<2>::find_moved_blocks(const State<2> &);
   template void ExplicitSolver<2>::hold_removed_blocks(const State<2> &);
   template void ExplicitSolver<3>::find_moved_blocks(const State<3> &);

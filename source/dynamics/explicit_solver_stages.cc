@@ -283,9 +283,9 @@ namespace quoin
   template <int dim>
   double ExplicitSolver<dim>::release_duration(const State<dim> &state) const
   {
-    const auto &held = state.template get<ConstructionState>().held;
+    const auto &held = state.template get<ConstructionState<dim>>().held;
     if (std::none_of(held.begin(), held.end(),
-                     [](const HeldForces &item)
+                     [](const HeldForces<dim> &item)
                      { return item.left != item.left_at_end; }))
       return 0.;
     if (stage.release_duration >= 0.)

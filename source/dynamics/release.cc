@@ -13,14 +13,14 @@ namespace quoin
                         const double duration)
     : is_linear(stage.releases_linearly), ramp_duration(duration)
   {
-    const auto &held = state.template get<ConstructionState>().held;
-    for (const HeldForces &item : held)
+    const auto &held = state.template get<ConstructionState<dim>>().held;
+    for (const HeldForces<dim> &item : held)
       is_changing = is_changing || item.left != item.left_at_end;
     const std::size_t n = held.empty() ? 0 : held.front().force.size() / dim;
     for (std::size_t i = 0; i < n; ++i)
     {
       NodalForce sum{ static_cast<unsigned int>(i), {}, {} };
-      for (const HeldForces &item : held)
+      for (const HeldForces<dim> &item : held)
         for (unsigned int d = 0; d < dim; ++d)
         {
           const double force = item.force[dim * i + d];

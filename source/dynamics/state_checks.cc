@@ -148,6 +148,8 @@ namespace quoin
     for (unsigned int i = 0; i < joints.faces().size(); ++i)
     {
       const auto &sides = nodes.faces().joints[joints.faces()[i].face].blocks;
+      if (state.is_absent(sides[0]) || state.is_absent(sides[1]))
+        continue;
       // The skew part of the relative rotation has the sine of its angle.
       const auto turn = turns[sides[1]] * transpose(turns[sides[0]]);
       motion.turn

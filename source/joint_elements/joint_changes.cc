@@ -43,7 +43,7 @@ namespace quoin
   } // namespace
 
   void initialise_joints(const MatchedJoints &joints,
-                         const std::vector<JointFaceStress> &face_stress,
+                         const std::vector<JointFaceStress<2>> &face_stress,
                          State<2> &state)
   {
     JointHistory &history = state.get<JointHistory>();

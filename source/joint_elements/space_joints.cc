@@ -1,64 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/joint_elements/joint_points.h>
-#include <quoin/joint_elements/space_joints.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "joint_sets.h"
+#include "space_face.h"
 
 namespace quoin
 {
   namespace
   {
-    using Vector = dealii::Tensor<1, 3>;
-
-    /** Calls @p use with the law of its own type, which works in space. */
-    template <typename Use>
-    void visit_law(const Use &use, const JointLaw &law)
-    {
-      std::visit(
-          [&](const auto &own)
-          {
-            if constexpr (std::decay_t<decltype(own)>::has_slip_vector)
-              use(own);
-          },
-          law);
-    }
-
     Vector vector_of(const NodeVector<3> &node)
     {
       return Vector({ node.v[0], node.v[1], node.v[2] });
-    }
-
-    /** From the position of @p a to that of @p b. Differences of X and of u
-        are taken apart, so that small displacements keep their digits. */
-    Vector between(const NodeRecord<3> &a, const NodeRecord<3> &b)
-    {
-      Vector result;
-      for (unsigned int d = 0; d < 3; ++d)
-        result[d] = (b.X[d] - a.X[d]) + (b.u[d] - a.u[d]);
-      return result;
-    }
-
-    Vector gap_vector(const SpaceJointFace &face, const NodeRecord<3> *nodes,
-                      const unsigned int k)
-    {
-      return between(nodes[face.lower[k]], nodes[face.upper[k]]);
-    }
-
-    SpaceJointGap components(const SpaceJointFrame &frame, const Vector &gap)
-    {
-      return { { gap * frame.n, gap * frame.s, gap * frame.t } };
-    }
-
-    Vector traction_vector(const SpaceJointFrame &frame, const double normal,
-                           const Slip<3> &shear)
-    {
-      return normal * frame.n + shear[0] * frame.s + shear[1] * frame.t;
     }
 
     /** How fast @p frame turns as its nodes move with @p velocity [1/s]. */
@@ -78,55 +35,6 @@ namespace quoin
       const double about_t = -(v1 * frame.n) / frame.length;
       return (v2 * frame.n + about_t * frame.along) / frame.above * frame.s
              + about_t * frame.t + v1 * frame.t / frame.length * frame.n;
-    }
-
-    void add(const Vector &f, NodeVector<3> &node)
-    {
-      for (unsigned int d = 0; d < 3; ++d)
-        node.v[d] += f[d];
-    }
-
-    /**
-     * Subtracts from the nodes of both sides what the rotation of the frame
-     * adds to the derivative of the energy: @p couple [N m], the derivative by
-     * the rotation, times that of the rotation by the nodes, which is that of
-     * rotation_rate().
-     */
-    void subtract_couple(const SpaceJointFace &face,
-                         const SpaceJointFrame &frame, const Vector &couple,
-                         NodeVector<3> *force)
-    {
-      const double lift = couple * frame.s / frame.above;
-      const Vector f2   = -0.5 * lift * frame.n;
-      const Vector f1   = 0.5 / frame.length
-                        * ((couple * frame.t + lift * frame.along) * frame.n
-                           - couple * frame.n * frame.t);
-      for (const auto &side : { face.lower, face.upper })
-      {
-        add(-f1 - f2, force[side[0]]);
-        add(f1, force[side[1]]);
-        add(f2, force[side[2]]);
-      }
-    }
-
-    /** Adds the forces of @p face whose points k have the force f(k, gap), on
-        the lower side, and the couple of the frame. */
-    template <typename Force>
-    void add_face_forces(const SpaceJointFace &face,
-                         const SpaceJointFrame &frame,
-                         const NodeRecord<3> *nodes, const Force &f,
-                         NodeVector<3> *force)
-    {
-      Vector couple;
-      for (unsigned int k = 0; k < 3; ++k)
-      {
-        const Vector gap = gap_vector(face, nodes, k);
-        const Vector own = f(k, gap);
-        couple += cross_product_3d(own, gap);
-        add(own, force[face.lower[k]]);
-        add(-own, force[face.upper[k]]);
-      }
-      subtract_couple(face, frame, couple, force);
     }
 
     /** add_face_forces() of springs @p stiffness (k), normal and shear, per
@@ -187,9 +95,7 @@ namespace quoin
   void SpaceJoints::prepare(const NodeMap<3> &nodes,
                             const std::vector<JointSetParameters> &sets)
   {
-    all_laws.clear();
-    for (const JointSetParameters &set : sets)
-      all_laws.push_back(set.law);
+    set_laws(sets);
     all_faces.clear();
     const auto set_of_name = sets_of_names<3>(nodes.table().face_names, sets);
     // The first face without set of all ranks is the one that is named.
@@ -227,6 +133,13 @@ namespace quoin
                           - all_faces.begin());
   }
 
+  void SpaceJoints::set_laws(const std::vector<JointSetParameters> &sets)
+  {
+    all_laws.clear();
+    for (const JointSetParameters &set : sets)
+      all_laws.push_back(set.law);
+  }
+
   void SpaceJoints::prepare(State<3> &state) const
   {
     if (state.find<SpaceJointHistory>())
@@ -235,7 +148,7 @@ namespace quoin
     for (const JointLaw &law : all_laws)
       most = std::max(most, n_internal(law));
     SpaceJointHistory &history = state.add<SpaceJointHistory>();
-    history.resize(n_points(), most);
+    history.resize(all_faces.size(), most);
     for (unsigned int p = 0; p < n_points(); ++p)
       visit_law([&](const auto &law)
                 { write_point(SpacePointOf<decltype(law)>(), history, p); },
@@ -261,6 +174,8 @@ namespace quoin
   {
     for (unsigned int i = set_begin[set]; i < set_begin[set + 1]; ++i)
     {
+      if (history.detached[i])
+        continue;
       const SpaceJointFace &face  = all_faces[i];
       const SpaceJointFrame frame = joint_frame(face, nodes);
       add_face_forces(
@@ -360,6 +275,8 @@ namespace quoin
     double energy                    = 0.;
     for (unsigned int i = 0; i < all_faces.size(); ++i)
     {
+      if (history.detached[i])
+        continue;
       const SpaceJointFace &face = all_faces[i];
       const auto gaps            = joint_gaps(face, state.nodes.data());
       visit_law(

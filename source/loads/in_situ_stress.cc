@@ -21,39 +21,50 @@ namespace quoin
 
     /** The number, or the expression of x and y, of @p name. */
     InSituStress::Field field(const ParameterSection &section,
-                              const std::string &name)
+                              const std::string &name, InSituStress &stress)
     {
+      static const std::regex z("\\bz\\b");
+      const bool names_z = std::regex_search(section.text(name), z);
+      stress.names_z |= names_z;
       const SpaceTimeFunction value = section.made(
-          name, [&]()
-          { return SpaceTimeFunction(section.text(name), section.folder()); });
+          name,
+          [&]()
+          {
+            return SpaceTimeFunction(section.text(name), section.folder(),
+                                     names_z ? 3 : 2);
+          });
       if (value.depends_on_time())
         section.fail(name, "depends on time, but it is the stress where the "
                            "run begins. Give a number or an expression of x "
                            "and y alone.");
-      return [value](const double x, const double y)
-      { return value(Eigen::Vector2d(x, y), 0.); };
+      return [value](const dealii::Point<3> &p) { return value(p, 0.); };
     }
 
     /** As field(), but a ratio that is a number must not be negative. */
     InSituStress::Field ratio(const ParameterSection &section,
-                              const std::string &name)
+                              const std::string &name, InSituStress &stress)
     {
-      const auto value = field(section, name);
+      const auto value = field(section, name, stress);
       if (!SpaceTimeFunction::names_place(section.text(name))
-          && !(value(0., 0.) >= 0.))
+          && !(value({}) >= 0.))
         section.fail(name, "must be a number that is not negative, or an "
                            "expression of x and y.");
       return value;
     }
 
-    /** The height of the surface as an expression of x. */
-    InSituStress::Field height_function(const ParameterSection &section)
+    /** The height of the surface as an expression of x or, in three
+        dimensions, of x and y. */
+    InSituStress::Field height_function(const ParameterSection &section,
+                                        InSituStress &stress)
     {
-      static const std::regex height("\\b[yz]\\b");
-      if (std::regex_search(section.text("Surface"), height))
-        section.fail("Surface", "depends on y, but it is the height y of the "
-                                "ground: give an expression of x alone [m].");
-      return field(section, "Surface");
+      static const std::regex y("\\by\\b"), z("\\bz\\b");
+      const std::string text = section.text("Surface");
+      if (std::regex_search(text, z))
+        section.fail("Surface",
+                     "depends on z, but it is the height of the ground: give "
+                     "an expression of x and, in three dimensions, y [m].");
+      stress.surface_names_y = std::regex_search(text, y);
+      return field(section, "Surface", stress);
     }
 
     std::vector<std::array<double, 2>>
@@ -109,15 +120,16 @@ namespace quoin
       if (section.text("Out-of-plane ratio") == "same")
         return;
       stress.has_out_of_plane    = true;
-      stress.out_of_plane_ratio  = ratio(section, "Out-of-plane ratio");
+      stress.out_of_plane_ratio  = ratio(section, "Out-of-plane ratio", stress);
       stress.out_of_plane_stress = InSituStress::uniform(0.);
     }
   } // namespace
 
-  double InSituStress::surface_height(const double x) const
+  double InSituStress::surface_height(const dealii::Point<3> &p) const
   {
     if (surface_function)
-      return surface_function(x, 0.);
+      return surface_function(p);
+    const double x  = p[0];
     const auto next = std::upper_bound(
         surface.begin(), surface.end(), x,
         [](const double at, const std::array<double, 2> &point)
@@ -130,14 +142,17 @@ namespace quoin
     return y0 + (x - x0) * ((*next)[1] - y0) / ((*next)[0] - x0);
   }
 
-  std::array<double, 4> InSituStress::stress(const double x,
-                                             const double y) const
+  std::array<double, 3>
+  InSituStress::normal_stress(const dealii::Point<3> &p,
+                              const unsigned int vertical_axis) const
   {
-    const double height = surface_height(x);
+    const double height = surface_height(p), y = p[vertical_axis];
+    dealii::Point<3> on_surface = p;
+    on_surface[vertical_axis]   = height;
     // Points of a horizontal surface must not fall above it by rounding.
     if (y > height + 1e-12 * (1. + std::abs(height)))
       return {};
-    double vertical = -pressure(x, height), top = height;
+    double vertical = -pressure(on_surface), top = height;
     for (const Layer &layer : layers)
     {
       const double bottom = std::max(y, layer.foot);
@@ -147,10 +162,8 @@ namespace quoin
         top = bottom;
       }
     }
-    return {
-      { horizontal_ratio(x, y) * vertical + horizontal_stress(x, y), vertical,
-        0., out_of_plane_ratio(x, y) * vertical + out_of_plane_stress(x, y) }
-    };
+    return { { horizontal_ratio(p) * vertical + horizontal_stress(p), vertical,
+               out_of_plane_ratio(p) * vertical + out_of_plane_stress(p) } };
   }
 
   void InSituStress::enter(ParameterEntries &entries)
@@ -159,11 +172,13 @@ namespace quoin
         "Surface", "0",
         "Ground surface of an in-situ stress: its height y, points x, y; x, y "
         "of its line, which is horizontal beyond the first and the last point, "
-        "or an expression of x; the stress is zero above it [m]",
+        "or an expression of x; the stress is zero above it. In three "
+        "dimensions the height is z, the points are x, z, and the expression "
+        "is one of x and y [m]",
         [&](const ParameterSection &section)
         {
           if (SpaceTimeFunction::names_place(section.text("Surface")))
-            surface_function = height_function(section);
+            surface_function = height_function(section, *this);
           else
             surface = read_surface(section);
         });
@@ -179,7 +194,7 @@ namespace quoin
     {
       entries.other(name, preset, sentence,
                     [&](const ParameterSection &section)
-                    { value = read(section, name); });
+                    { value = read(section, name, *this); });
     };
     enter_field(
         "Surface pressure", pressure, "0", field,
@@ -197,8 +212,9 @@ namespace quoin
     entries.other(
         "Out-of-plane ratio", "same",
         "Ratio of out-of-plane to vertical stress of an in-situ stress in "
-        "plane strain: a number or an expression of x and y; 'same': as the "
-        "horizontal stress, including what is locked in [-]",
+        "plane strain, in three dimensions of the one along y: a number or an "
+        "expression of x and y; 'same': as the horizontal stress, including "
+        "what is locked in [-]",
         [&](const ParameterSection &section)
         { read_out_of_plane_ratio(section, *this); });
   }

@@ -445,6 +445,23 @@ namespace quoin
     return result;
   }
 
+  std::array<double, 6>
+  LoadParameters::initial_stress(const dealii::Point<3> &place) const
+  {
+    std::array<double, 6> result{};
+    if (in_situ)
+    {
+      const auto normal = in_situ->normal_stress(place, 2);
+      return { { normal[0], normal[2], normal[1], 0., 0., 0. } };
+    }
+    for (unsigned int k = 0; k < 6; ++k)
+      if (stress_fields.size() == 6)
+        result[k] = stress_fields[k](place, 0.);
+      else if (space_stress)
+        result[k] = (*space_stress)[k] + place[2] * space_gradient[k];
+    return result;
+  }
+
   namespace
   {
     void enter_place(ParameterEntries &entries, LoadParameters &load)
@@ -679,11 +696,17 @@ namespace quoin
     stress_fields(const ParameterSection &section, const std::string &name)
     {
       std::vector<SpaceTimeFunction> fields;
-      for (const std::string &text :
-           dealii::Utilities::split_string_list(section.text(name), ';'))
+      const auto texts
+          = dealii::Utilities::split_string_list(section.text(name), ';');
+      for (const std::string &text : texts)
       {
-        fields.push_back(section.made(
-            name, [&]() { return SpaceTimeFunction(text, section.folder()); }));
+        fields.push_back(section.made(name,
+                                      [&]()
+                                      {
+                                        return SpaceTimeFunction(
+                                            text, section.folder(),
+                                            texts.size() == 6 ? 3 : 2);
+                                      }));
         if (fields.back().depends_on_time())
           section.fail(name, "depends on time, but it is the stress where the "
                              "run begins. Give expressions of x and y alone.");
@@ -693,17 +716,35 @@ namespace quoin
 
     void read_stress(const ParameterSection &section, LoadParameters &load)
     {
-      if (section.text("Stress").find(';') == std::string::npos)
+      const bool has_numbers
+          = section.text("Stress").find(';') == std::string::npos;
+      const std::string must_be
+          = "must be three numbers with commas between them, or three "
+            "expressions of x and y with semicolons; in three dimensions six "
+            "numbers, or six expressions of x, y and z.";
+      if (has_numbers && section.list("Stress").size() == 6)
       {
-        load.stress = section.numbers<3>("Stress");
+        load.space_stress = section.numbers<6>("Stress");
+        if (section.list("Stress gradient").size() == 6)
+          load.space_gradient = section.numbers<6>("Stress gradient");
+        else if (section.numbers<3>("Stress gradient")
+                 != std::array<double, 3>{})
+          section.fail("Stress gradient", "must be six numbers, as 'Stress'.");
+        return;
+      }
+      if (has_numbers)
+      {
+        if (section.list("Stress").size() != 3)
+          section.fail("Stress", must_be);
+        load.stress          = section.numbers<3>("Stress");
+        load.stress_gradient = section.numbers<3>("Stress gradient");
         return;
       }
       load.stress_fields = stress_fields(section, "Stress");
-      if (load.stress_fields.size() != 3)
-        section.fail("Stress", "must be three numbers with commas between "
-                               "them, or three expressions of x and y with "
-                               "semicolons.");
-      if (section.numbers<3>("Stress gradient") != std::array<double, 3>{})
+      if (load.stress_fields.size() != 3 && load.stress_fields.size() != 6)
+        section.fail("Stress", must_be);
+      if (section.list("Stress gradient").size() != 3
+          || section.numbers<3>("Stress gradient") != std::array<double, 3>{})
         section.fail("Stress gradient",
                      "goes with numbers for 'Stress'; it has expressions: "
                      "write the change with y into these.");
@@ -714,6 +755,9 @@ namespace quoin
       const std::string text = section.text("Stress zz");
       if (text == "elastic")
         return;
+      if (load.space_stress || load.stress_fields.size() == 6)
+        section.fail("Stress zz", "is one of the six components of 'Stress' in "
+                                  "three dimensions. Leave it at 'elastic'.");
       if (load.stress_fields.empty())
       {
         load.stress_zz = section.numbers<2>("Stress zz");
@@ -889,11 +933,14 @@ namespace quoin
         entries.other(
             "Stress", "0, 0, 0",
             "Initial stress xx, yy, xy at y = 0, tension positive; or three "
-            "expressions of x and y [m] with semicolons between them [Pa]",
+            "expressions of x and y [m] with semicolons between them. In three "
+            "dimensions xx, yy, zz, xy, xz, yz at z = 0, or six expressions of "
+            "x, y and z [Pa]",
             [&](const ParameterSection &from) { read_stress(from, load); });
-        entries.numbers(
-            "Stress gradient", load.stress_gradient,
-            "Gradient of the initial stress xx, yy, xy with y [Pa/m]");
+        entries.other("Stress gradient", "0, 0, 0",
+                      "Gradient of the initial stress xx, yy, xy with y; in "
+                      "three dimensions of the six components with z [Pa/m]",
+                      [](const ParameterSection &) {});
         entries.other(
             "Stress zz", "elastic",
             "Initial out-of-plane stress in plane strain: its value at y = 0 "

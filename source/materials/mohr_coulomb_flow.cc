@@ -123,26 +123,31 @@ namespace quoin
     return result;
   }
 
-  MohrCoulomb::PrincipalAxes
-  MohrCoulomb::strain_of_kirchhoff(const std::array<double, 4> &kirchhoff) const
+  MohrCoulomb::Principal
+  MohrCoulomb::strain_of_principal(const Principal &kirchhoff) const
   {
     // The stretches differ from 1 by as little as strength by stiffness: each
     // round gains as many digits.
-    PrincipalAxes axes     = principal(kirchhoff);
-    const Principal stress = axes.s;
-    Principal &strain      = axes.s;
-    strain                 = {};
+    Principal strain{};
     for (unsigned int round = 0; round < 100; ++round)
     {
       const Principal before = strain;
-      strain                 = inverse_hooke({ stress[0] / (1. + before[0]),
-                                               stress[1] / (1. + before[1]),
-                                               stress[2] / (1. + before[2]) });
+      strain                 = inverse_hooke({ kirchhoff[0] / (1. + before[0]),
+                                               kirchhoff[1] / (1. + before[1]),
+                                               kirchhoff[2] / (1. + before[2]) });
       if (largest({ strain[0] - before[0], strain[1] - before[1],
                     strain[2] - before[2] })
           <= 4e-16 * largest(strain))
         break;
     }
+    return strain;
+  }
+
+  MohrCoulomb::PrincipalAxes
+  MohrCoulomb::strain_of_kirchhoff(const std::array<double, 4> &kirchhoff) const
+  {
+    PrincipalAxes axes = principal(kirchhoff);
+    axes.s             = strain_of_principal(axes.s);
     return axes;
   }
 
@@ -240,6 +245,15 @@ namespace quoin
     return turn;
   }
 
+  double MohrCoulomb::shear_of(const Principal &flowed)
+  {
+    const double mean = (flowed[0] + flowed[1] + flowed[2]) / 3.;
+    double deviator   = 0.;
+    for (const double component : flowed)
+      deviator += (component - mean) * (component - mean);
+    return std::sqrt(0.5 * deviator);
+  }
+
   PlasticStep MohrCoulomb::update_yielding(PlasticPoint &point,
                                            const PlaneTensor &e,
                                            const std::array<double, 4> &initial,
@@ -285,12 +299,7 @@ namespace quoin
     std::copy_n(turned.begin(), 3, point.stress.begin());
     point.stress[3] = stress[3];
 
-    const auto &p     = step.flowed;
-    const double mean = (p[0] + p[1] + p[2]) / 3.;
-    double deviator   = 0.;
-    for (const double component : p)
-      deviator += (component - mean) * (component - mean);
-    point.plastic_shear += std::sqrt(0.5 * deviator);
+    point.plastic_shear += shear_of(step.flowed);
     point.state = past(point.state) | yields_now(step.where);
     return result;
   }

@@ -11,11 +11,12 @@ namespace quoin
   namespace
   {
     /** Resets the internal variables of the cells of @p block on this rank. */
-    void reset_plasticity(const Model<2> &model, const unsigned int block,
+    template <int dim>
+    void reset_plasticity(const Model<dim> &model, const unsigned int block,
                           PlasticHistory &history)
     {
-      const NodeMap<2> &nodes = model.nodes();
-      const unsigned int part = nodes.blocks().find(block);
+      const NodeMap<dim> &nodes = model.nodes();
+      const unsigned int part   = nodes.blocks().find(block);
       if (part == nodes.blocks().parts.size())
         return;
       const auto &[begin, end] = nodes.blocks().parts[part].cells;
@@ -70,26 +71,29 @@ namespace quoin
     return result;
   }
 
-  bool is_at_absent_block(const Model<2> &model, const unsigned int segment,
-                          const State<2> &state)
+  template <int dim>
+  bool is_at_absent_block(const Model<dim> &model, const unsigned int joint,
+                          const State<dim> &state)
   {
-    const JointNodes<2> &face
-        = model.nodes().faces().joints[model.joints().segments()[segment].face];
+    const JointNodes<dim> &face
+        = model.nodes().faces().joints[joint_faces(model.joints())[joint].face];
     return state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]);
   }
 
-  void bring_to_rest(const Model<2> &model,
-                     const std::vector<unsigned int> &blocks, State<2> &state)
+  template <int dim>
+  void bring_to_rest(const Model<dim> &model,
+                     const std::vector<unsigned int> &blocks, State<dim> &state)
   {
     // A deformable block may lie on several ranks, and so may its nodes.
-    std::vector<double> sums(3 * blocks.size(), 0.);
+    constexpr unsigned int n = dim + 1;
+    std::vector<double> sums(n * blocks.size(), 0.);
     for (unsigned int k = 0; k < blocks.size(); ++k)
       for (const unsigned int i : owned_nodes(model, blocks[k]))
       {
-        state.velocity[i] = NodeVector<2>{ { 0., 0. } };
-        for (unsigned int d = 0; d < 2; ++d)
-          sums[3 * k + d] += state.nodes[i].u[d];
-        ++sums[3 * k + 2];
+        state.velocity[i] = NodeVector<dim>{};
+        for (unsigned int d = 0; d < dim; ++d)
+          sums[n * k + d] += state.nodes[i].u[d];
+        ++sums[n * k + dim];
       }
     dealii::Utilities::MPI::sum(sums, model.nodes().communicator(), sums);
     for (unsigned int k = 0; k < blocks.size(); ++k)
@@ -98,29 +102,31 @@ namespace quoin
       if (model.nodes().table().is_rigid[block])
       {
         if (block_nodes(model, block).size() > 0)
-          std::fill_n(state.get<RigidBlockStates>()[rigid_number(model, block)]
-                          .velocity,
-                      3, 0.);
+          std::fill_n(
+              state.template get<RigidBlockStates>()[rigid_number(model, block)]
+                  .velocity,
+              3, 0.);
         continue;
       }
       for (const unsigned int i : owned_nodes(model, block))
-        for (unsigned int d = 0; d < 2; ++d)
-          state.nodes[i].u[d] = sums[3 * k + d] / sums[3 * k + 2];
-      reset_plasticity(model, block, state.get<PlasticHistory>());
+        for (unsigned int d = 0; d < dim; ++d)
+          state.nodes[i].u[d] = sums[n * k + d] / sums[n * k + dim];
+      reset_plasticity(model, block, state.template get<PlasticHistory>());
     }
   }
 
-  void place_blocks(const Model<2> &model,
-                    const std::vector<unsigned int> &blocks, State<2> &state)
+  template <int dim>
+  void place_blocks(const Model<dim> &model,
+                    const std::vector<unsigned int> &blocks, State<dim> &state)
   {
     bring_to_rest(model, blocks, state);
     for (const unsigned int block : blocks)
     {
       const auto nodes = owned_nodes(model, block);
       for (const unsigned int i : nodes)
-        std::fill_n(state.nodes[i].u, 2, 0.);
+        std::fill_n(state.nodes[i].u, dim, 0.);
       if (model.nodes().table().is_rigid[block] && !nodes.empty())
-        state.get<RigidBlockStates>()[rigid_number(model, block)]
+        state.template get<RigidBlockStates>()[rigid_number(model, block)]
             = RigidBlockState();
     }
   }
@@ -135,4 +141,16 @@ namespace quoin
   template NodeRange block_nodes(const Model<3> &, unsigned int);
   template unsigned int rigid_number(const Model<3> &, unsigned int);
   template std::vector<bool> absent_nodes(const Model<3> &, const State<3> &);
+  template bool is_at_absent_block(const Model<2> &, unsigned int,
+                                   const State<2> &);
+  template void bring_to_rest(const Model<2> &,
+                              const std::vector<unsigned int> &, State<2> &);
+  template void place_blocks(const Model<2> &,
+                             const std::vector<unsigned int> &, State<2> &);
+  template bool is_at_absent_block(const Model<3> &, unsigned int,
+                                   const State<3> &);
+  template void bring_to_rest(const Model<3> &,
+                              const std::vector<unsigned int> &, State<3> &);
+  template void place_blocks(const Model<3> &,
+                             const std::vector<unsigned int> &, State<3> &);
 } // namespace quoin

@@ -25,8 +25,7 @@ namespace quoin
     absent_group
         = find_groups(table, parameters.absent_groups, "section 'Stages'");
     find_masses();
-    if constexpr (dim == 2)
-      find_initial_stress();
+    find_initial_stress();
     pack_blocks({});
     if constexpr (dim == 2)
     {
@@ -110,7 +109,24 @@ namespace quoin
   }
 
   template <int dim>
-  void Model<dim>::pack_blocks(const ConstructionState &construction)
+  std::vector<std::optional<YieldLaw<dim>>>
+  Model<dim>::laws_of(const std::vector<MaterialParameters> &materials) const
+  {
+    std::vector<std::optional<YieldLaw<dim>>> laws(materials.size());
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      if (materials[m].strength)
+      {
+        if constexpr (dim == 2)
+          laws[m].emplace(materials[m].elastic, *materials[m].strength,
+                          given.plane);
+        else
+          laws[m].emplace(materials[m].elastic, *materials[m].strength);
+      }
+    return laws;
+  }
+
+  template <int dim>
+  void Model<dim>::pack_blocks(const ConstructionState<dim> &construction)
   {
     BlockForcesData<dim> data;
     take_cells(node_map, data);
@@ -118,26 +134,21 @@ namespace quoin
       data.stiffness.push_back(stiffness_of(material));
     for (unsigned int c = 0; c < node_map.cells().n_deformable; ++c)
       data.cell_stiffness.push_back(material_of_cell(c));
+    data.laws                         = laws_of(now.materials);
+    const AlignedArray<double> stress = construction.initial_stress.empty()
+                                            ? packed_initial_stress()
+                                            : construction.initial_stress;
+    constexpr unsigned int n          = ConstructionState<dim>::n_stresses;
+    data.initial_stress.resize(stress.size() / n);
+    for (unsigned int c = 0; c < data.initial_stress.size(); ++c)
+      std::copy_n(&stress[n * c], n, data.initial_stress[c].begin());
     if constexpr (dim == 2)
     {
       data.quadratic = node_map.table().is_quadratic;
       std::vector<double> thickness;
       for (const MaterialParameters &material : now.materials)
-      {
         thickness.push_back(material.thickness);
-        data.laws.emplace_back();
-        if (material.strength)
-          data.laws.back().emplace(material.elastic, *material.strength,
-                                   given.plane);
-      }
-      data.thickness                    = Thickness(thickness);
-      const AlignedArray<double> stress = construction.initial_stress.empty()
-                                              ? packed_initial_stress()
-                                              : construction.initial_stress;
-      for (unsigned int c = 0; 4 * c < stress.size(); ++c)
-        data.initial_stress.push_back(
-            { { stress[4 * c], stress[4 * c + 1], stress[4 * c + 2],
-                stress[4 * c + 3] } });
+      data.thickness = Thickness(thickness);
     }
     block_forces.prepare(data);
   }
@@ -305,7 +316,7 @@ namespace quoin
   {
     State<dim> state;
     state.template add<RigidBlockStates>().resize(rigid.n_blocks());
-    state.template add<ConstructionState>();
+    state.template add<ConstructionState<dim>>();
     for (unsigned int i = 0; i < node_map.n_local(); ++i)
     {
       state.nodes.emplace_back();
@@ -316,21 +327,18 @@ namespace quoin
     block_forces.prepare(state);
     matched_joints.prepare(state);
     if constexpr (dim == 2)
-    {
       bars.prepare(state);
-      if (!face_stress.empty())
-        initialise_joints(matched_joints, face_stress, state);
-    }
+    if (!face_stress.empty())
+      initialise_joints(matched_joints, face_stress, state);
     if (std::find(absent_group.begin(), absent_group.end(), true)
         == absent_group.end())
       return state;
     for (const unsigned int group : node_map.table().group)
       state.block_marks.push_back(absent_group[group] ? block_mark::absent
                                                       : block_mark::present);
-    if constexpr (dim == 2)
-      for (unsigned int i = 0; i < matched_joints.segments().size(); ++i)
-        if (is_at_absent_block(*this, i, state))
-          detach_joint(i, state.template get<JointHistory>());
+    for (unsigned int i = 0; i < joint_faces(matched_joints).size(); ++i)
+      if (is_at_absent_block(*this, i, state))
+        detach_joint(i, state.template get<JointHistoryOf<dim>>());
     return state;
   }
   template class Model<2>;

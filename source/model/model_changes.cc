@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// How a Model<2> changes between stages.
+// How a Model changes between stages.
 
 #include <quoin/blocks/cell_states.h>
 #include <quoin/model/model.h>
@@ -10,8 +10,23 @@
 
 namespace quoin
 {
-  template <>
-  AlignedArray<double> Model<2>::packed_initial_stress() const
+  namespace
+  {
+    /** Sets the last stress of a cell of a material that yields. */
+    void set_stress(const std::array<double, 4> &stress,
+                    const unsigned int cell, PlasticHistory &history)
+    {
+      std::copy(stress.begin(), stress.end(), history.cells[cell].stress);
+    }
+    void set_stress(const SpaceTensor &stress, const unsigned int cell,
+                    PlasticHistory &history)
+    {
+      std::copy(stress.begin(), stress.end(), history.space_cells[cell].stress);
+    }
+  } // namespace
+
+  template <int dim>
+  AlignedArray<double> Model<dim>::packed_initial_stress() const
   {
     AlignedArray<double> result;
     for (unsigned int c = 0;
@@ -33,9 +48,9 @@ namespace quoin
     return properties;
   }
 
-  template <>
-  void Model<2>::set_properties(const ModelProperties &properties,
-                                const ConstructionState &construction)
+  template <int dim>
+  void Model<dim>::set_properties(const ModelProperties &properties,
+                                  const ConstructionState<dim> &construction)
   {
     now = properties;
     find_masses();
@@ -50,42 +65,39 @@ namespace quoin
       find_stable_step();
   }
 
-  template <>
-  void Model<2>::clear_initial_stress(const std::vector<bool> &groups,
-                                      ConstructionState &construction)
+  template <int dim>
+  void Model<dim>::clear_initial_stress(const std::vector<bool> &groups,
+                                        ConstructionState<dim> &construction)
   {
     if (construction.initial_stress.empty())
       construction.initial_stress = packed_initial_stress();
-    auto &stress = construction.initial_stress;
-    for (unsigned int c = 0; 4 * c < stress.size(); ++c)
+    auto &stress             = construction.initial_stress;
+    constexpr unsigned int n = ConstructionState<dim>::n_stresses;
+    for (unsigned int c = 0; n * c < stress.size(); ++c)
       if (groups[node_map.cells().group[c]])
-        std::fill_n(&stress[4 * c], 4, 0.);
+        std::fill_n(&stress[n * c], n, 0.);
   }
 
-  template <>
-  void Model<2>::change_properties(const ModelProperties &properties,
-                                   State<2> &state)
+  template <int dim>
+  void Model<dim>::change_properties(const ModelProperties &properties,
+                                     State<dim> &state)
   {
-    std::vector<PlaneStiffness> stiffness;
-    std::vector<std::optional<MohrCoulomb>> laws;
+    std::vector<CellStiffness<dim>> stiffness;
     for (const MaterialParameters &material : properties.materials)
-    {
-      stiffness.push_back(plane_stiffness(material.elastic, given.plane));
-      laws.emplace_back();
-      if (material.strength)
-        laws.back().emplace(material.elastic, *material.strength, given.plane);
-    }
-    auto &initial           = state.get<ConstructionState>().initial_stress;
-    PlasticHistory &plastic = state.get<PlasticHistory>();
+      stiffness.push_back(stiffness_of(material));
+    const auto laws          = laws_of(properties.materials);
+    constexpr unsigned int n = ConstructionState<dim>::n_stresses;
+    auto &initial = state.template get<ConstructionState<dim>>().initial_stress;
+    PlasticHistory &plastic = state.template get<PlasticHistory>();
     for (unsigned int c = 0; c < node_map.cells().n_deformable; ++c)
     {
       const unsigned int m
           = properties.material_of_group[node_map.cells().group[c]];
-      const MohrCoulomb *law          = laws[m] ? &*laws[m] : nullptr;
-      const BlockForcesData<2> &cells = block_forces.cell_data();
-      const auto *nodes               = state.nodes.data();
+      const YieldLaw<dim> *law          = laws[m] ? &*laws[m] : nullptr;
+      const BlockForcesData<dim> &cells = block_forces.cell_data();
+      const auto *nodes                 = state.nodes.data();
       const auto after = stress_of_strain(block_forces, nodes, c, stiffness[m]);
-      std::array<double, 4> bears;
+      CellStress<dim> bears;
       if (cells.law_of(c) && plastic.yielding[c] != 0)
       {
         // Its stress has nothing of the initial one any more.
@@ -101,20 +113,36 @@ namespace quoin
         bears = cells.initial_stress_of(c);
         const auto before
             = stress_of_strain(block_forces, nodes, c, cells.stiffness_of(c));
-        for (unsigned int k = 0; k < 4; ++k)
+        for (unsigned int k = 0; k < n; ++k)
           bears[k] += before[k];
         if (law)
-          std::copy(bears.begin(), bears.end(), plastic.cells[c].stress);
+          set_stress(bears, c, plastic);
         if (before == after)
           continue;
       }
       if (initial.empty())
         initial = packed_initial_stress();
-      initial.resize(4 * node_map.cells().n_deformable, 0.);
-      for (unsigned int k = 0; k < 4; ++k)
-        initial[4 * c + k] = bears[k] - after[k];
+      initial.resize(n * node_map.cells().n_deformable, 0.);
+      for (unsigned int k = 0; k < n; ++k)
+        initial[n * c + k] = bears[k] - after[k];
     }
-    set_properties(properties, state.get<ConstructionState>());
+    set_properties(properties, state.template get<ConstructionState<dim>>());
     keep_joint_tractions(matched_joints, state);
   }
+
+  template AlignedArray<double> Model<2>::packed_initial_stress() const;
+  template void Model<2>::set_properties(const ModelProperties &,
+                                         const ConstructionState<2> &);
+  template void Model<2>::clear_initial_stress(const std::vector<bool> &,
+                                               ConstructionState<2> &);
+  template void Model<2>::change_properties(const ModelProperties &,
+                                            State<2> &);
+
+  template AlignedArray<double> Model<3>::packed_initial_stress() const;
+  template void Model<3>::set_properties(const ModelProperties &,
+                                         const ConstructionState<3> &);
+  template void Model<3>::clear_initial_stress(const std::vector<bool> &,
+                                               ConstructionState<3> &);
+  template void Model<3>::change_properties(const ModelProperties &,
+                                            State<3> &);
 } // namespace quoin

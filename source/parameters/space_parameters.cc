@@ -37,11 +37,8 @@ namespace quoin
       {
         const std::string section
             = "section 'Materials/" + material.name + "': ";
-        refusals.refuse_if(material.rigid || material.strength,
-                           section + "'Law = "
-                               + (material.rigid ? "rigid" : "Mohr-Coulomb")
-                               + "'",
-                           "Take 'linear elastic'.");
+        refusals.refuse_if(material.rigid, section + "'Law = rigid'",
+                           "Take 'linear elastic' or 'Mohr-Coulomb'.");
         refusals.refuse_if(material.thickness > 0., section + "'Thickness'",
                            "Leave it empty.");
       }
@@ -68,36 +65,14 @@ namespace quoin
     void check_loads(const Parameters &parameters, const Refusals &refusals)
     {
       for (const LoadParameters &load : parameters.loads)
-        refusals.refuse_if(
-            load.type == LoadType::platen || load.type == LoadType::free_field
-                || load.type == LoadType::initial_stress
-                || load.type == LoadType::boundary_elements,
-            "section 'Loads/" + load.name + "': 'Type = " + load.type_text()
-                + "'",
-            "Take 'prescribed motion', 'traction', 'gravity' or 'viscous "
-            "boundary'.");
-    }
-
-    void check_stages(const Parameters &parameters, const Refusals &refusals)
-    {
-      for (const StageParameters &stage : parameters.stages)
-      {
-        const std::string section = "section 'Stages/" + stage.name + "': ";
-        refusals.refuse_if(!stage.excavate.empty(), section + "'Excavate'",
-                           "Leave it empty.");
-        refusals.refuse_if(!stage.fill.empty(), section + "'Fill'",
-                           "Leave it empty.");
-        refusals.refuse_if(stage.changes_properties(),
-                           section + "'Materials' or 'Joint properties'",
-                           "Leave them empty.");
-        refusals.refuse_if(stage.strength_factor != 1.,
-                           section + "'Strength factor'", "Leave it at 1.");
-        refusals.refuse_if(stage.reset.slips || stage.reset.joint_states,
-                           section + "'Reset' of slips or joint states",
-                           "Reset 'displacements' alone.");
-        refusals.refuse_if(bool(stage.safety), section + "a factor of safety",
-                           "Take another 'End'.");
-      }
+        refusals.refuse_if(load.type == LoadType::platen
+                               || load.type == LoadType::free_field
+                               || load.type == LoadType::boundary_elements,
+                           "section 'Loads/" + load.name
+                               + "': 'Type = " + load.type_text() + "'",
+                           "Take 'prescribed motion', 'traction', 'gravity', "
+                           "'initial stress', "
+                           "'in-situ stress' or 'viscous boundary'.");
     }
   } // namespace
 
@@ -128,6 +103,5 @@ namespace quoin
     check_materials(parameters, refusals);
     check_joints(parameters, refusals);
     check_loads(parameters, refusals);
-    check_stages(parameters, refusals);
   }
 } // namespace quoin

@@ -263,13 +263,11 @@ namespace quoin
   template <int dim>
   std::unique_ptr<Stage> BlockProblem<dim>::make_stage(const unsigned int index)
   {
+    if (parameters.stages[index].safety)
+      return make_safety_stage(context, index);
     if constexpr (dim == 2)
-    {
-      if (parameters.stages[index].safety)
-        return make_safety_stage(context, index);
       if (system.implicit_solver)
         return make_implicit_stage(context, index);
-    }
     return make_explicit_stage(context, index);
   }
 

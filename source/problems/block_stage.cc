@@ -167,7 +167,8 @@ namespace quoin
       return;
     const double share
         = system.solver->stage_loads().release.share(state.load_time);
-    for (HeldForces &item : state.template get<ConstructionState>().held)
+    for (HeldForces<dim> &item :
+         state.template get<ConstructionState<dim>>().held)
       item.left_at_end += (1. - share) * (item.left - item.left_at_end);
   }
 

@@ -67,9 +67,8 @@ namespace quoin
              model = std::make_unique<Model<dim>>(*nodes, parameters.model);
              if constexpr (dim == 2)
                find_named_blocks(*nodes, named_blocks);
-             if constexpr (dim == 2)
-               construction
-                   = std::make_unique<Construction>(*model, parameters.stages);
+             construction = std::make_unique<Construction<dim>>(
+                 *model, parameters.stages);
              make_solver(curves);
              if constexpr (dim == 2)
              {
@@ -250,10 +249,12 @@ namespace quoin
     const StageParameters *previous = previous_stage(parameters.stages, index);
     try
     {
+      double power = 0.;
+      if constexpr (dim == 2)
+        power = model->reinforcement().end_stage(state);
+      construction->begin_stage(index, *solver, state);
       if constexpr (dim == 2)
       {
-        const double power = model->reinforcement().end_stage(state);
-        construction->begin_stage(index, *solver, state);
         model->reinforcement().begin_stage(stage.name, index == 0, power,
                                            state);
         if (implicit_solver)
@@ -284,12 +285,10 @@ namespace quoin
   {
     const StageParameters &stage    = parameters.stages[index];
     const StageParameters *previous = previous_stage(parameters.stages, index);
+    construction->resume_stage(index, state);
     if constexpr (dim == 2)
-    {
-      construction->resume_stage(index, state);
       if (implicit_solver)
         implicit_solver->resume_stage(stage, previous, state);
-    }
     if (explicit_solver)
       explicit_solver->resume_stage(stage, previous, state);
   }
@@ -300,18 +299,18 @@ namespace quoin
   {
     if (index == 0)
       return;
-    if constexpr (dim == 2)
-      construction->resume_stage(index - 1, state);
+    construction->resume_stage(index - 1, state);
     if (explicit_solver)
       explicit_solver->restore_masses(*previous_stage(parameters.stages, index),
                                       state);
   }
 
-  template <>
-  void BlockSystem<2>::set_properties(const ModelProperties &properties,
-                                      const State<2> &state)
+  template <int dim>
+  void BlockSystem<dim>::set_properties(const ModelProperties &properties,
+                                        const State<dim> &state)
   {
-    model->set_properties(properties, state.get<ConstructionState>());
+    model->set_properties(properties,
+                          state.template get<ConstructionState<dim>>());
   }
 
   template <int dim>

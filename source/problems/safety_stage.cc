@@ -24,11 +24,22 @@ namespace quoin
         solver moves against drag. */
     constexpr double released_at = 0.1;
 
-    class SafetyStage : public BlockStage<2>
+    template <int dim>
+    class SafetyStage : public BlockStage<dim>
     {
+      using BlockStage<dim>::context;
+      using BlockStage<dim>::index;
+      using BlockStage<dim>::log;
+      using BlockStage<dim>::outputs;
+      using BlockStage<dim>::stage;
+      using BlockStage<dim>::state;
+      using BlockStage<dim>::system;
+
     public:
-      SafetyStage(BlockContext<2> &context, const unsigned int index)
-        : BlockStage<2>(context, index), safety(*stage.safety),
+      using typename Stage::Checkpoint;
+
+      SafetyStage(BlockContext<dim> &context, const unsigned int index)
+        : BlockStage<dim>(context, index), safety(*stage.safety),
           search(context.searches[index]), base(state),
           strong(system.model->properties())
       {
@@ -52,7 +63,7 @@ namespace quoin
       Checkpoint take_step() override;
       ProgressFigures figures() const override
       {
-        ProgressFigures figures = figures_at(-1.);
+        ProgressFigures figures = this->figures_at(-1.);
         if (!search.has_ended(safety))
           figures.stage += text_of(", factor ", search.next(safety));
         return figures;
@@ -85,7 +96,7 @@ namespace quoin
 
       const SafetyParameters &safety;
       FactorSearch &search;
-      const State<2> base;
+      const State<dim> base;
       /** Energies at the start of the search. */
       const Energies energies = system.solver->energies();
       ModelProperties strong;
@@ -94,7 +105,8 @@ namespace quoin
       bool interrupted = false; /**< the present trial */
     };
 
-    Stage::Checkpoint SafetyStage::take_step()
+    template <int dim>
+    Stage::Checkpoint SafetyStage<dim>::take_step()
     {
       const SafetyTrial trial = try_factor(search.next(safety));
       if (interrupted)
@@ -119,7 +131,8 @@ namespace quoin
       return Checkpoint::wanted;
     }
 
-    void SafetyStage::set_strength(const double factor, const double share)
+    template <int dim>
+    void SafetyStage<dim>::set_strength(const double factor, const double share)
     {
       system.set_properties(reduced(reduced(strong, std::pow(raised, share)),
                                     std::pow(factor, share),
@@ -128,7 +141,8 @@ namespace quoin
                             state);
     }
 
-    void SafetyStage::begin_trial(const StageParameters &variant)
+    template <int dim>
+    void SafetyStage<dim>::begin_trial(const StageParameters &variant)
     {
       state = base;
       system.set_properties(strong, state);
@@ -137,7 +151,8 @@ namespace quoin
       count_from(*system.model, { true, true, true }, state);
     }
 
-    SafetyTrial SafetyStage::try_factor(const double factor)
+    template <int dim>
+    SafetyTrial SafetyStage<dim>::try_factor(const double factor)
     {
       SafetyTrial trial;
       trial.factor = factor;
@@ -171,14 +186,16 @@ namespace quoin
       return trial;
     }
 
-    bool SafetyStage::needs_confirmation() const
+    template <int dim>
+    bool SafetyStage<dim>::needs_confirmation() const
     {
       return system.explicit_solver && stage.damping == DampingType::adaptive
              && (system.nodes->faces().n_global_joints > 0
                  || system.solver->contacts());
     }
 
-    bool SafetyStage::is_interrupted()
+    template <int dim>
+    bool SafetyStage<dim>::is_interrupted()
     {
       interrupted = dealii::Utilities::MPI::max(Interruption::received(),
                                                 context.run.communicator)
@@ -186,10 +203,11 @@ namespace quoin
       return interrupted;
     }
 
-    void SafetyStage::come_to_rest(const StageParameters &variant,
-                                   SafetyTrial &trial)
+    template <int dim>
+    void SafetyStage<dim>::come_to_rest(const StageParameters &variant,
+                                        SafetyTrial &trial)
     {
-      ExplicitSolver<2> &solver = *system.explicit_solver;
+      ExplicitSolver<dim> &solver = *system.explicit_solver;
       context.steps.choose(variant);
       // A sudden loss of strength would make the model overshoot.
       const double start = state.time, duration = solver.quiet_time();
@@ -208,9 +226,9 @@ namespace quoin
             ++n_reduced;
             set_strength(trial.factor, double(n_reduced) / n_reductions);
           }
-          ExplicitSolver<2>::Requests requests;
+          typename ExplicitSolver<dim>::Requests requests;
           requests.balance
-              = state.stage_step % ExplicitSolver<2>::balance_interval == 0;
+              = state.stage_step % ExplicitSolver<dim>::balance_interval == 0;
           if (state.stage_step > 1)
             note_failed_joints(state);
           solver.step(state, requests);
@@ -222,7 +240,7 @@ namespace quoin
           if (!solver.take_blocks_outside().empty()
               || watch.has_failed(state.time, largest_displacement()))
             trial.verdict = Verdict::failing;
-          else if (share >= 1. && has_settled())
+          else if (share >= 1. && this->has_settled())
           {
             judge_rest(watch.has_moved_on(), limit, trial);
             return;
@@ -253,7 +271,8 @@ namespace quoin
       }
     }
 
-    void SafetyStage::find_equilibrium(SafetyTrial &trial)
+    template <>
+    void SafetyStage<2>::find_equilibrium(SafetyTrial &trial)
     {
       ImplicitSolver &solver = *system.implicit_solver;
       set_strength(trial.factor, 1.);
@@ -304,8 +323,14 @@ namespace quoin
       }
     }
 
-    void SafetyStage::judge_rest(const bool moved_on, const double limit,
-                                 SafetyTrial &trial) const
+    template <>
+    void SafetyStage<3>::find_equilibrium(SafetyTrial &)
+    {
+    }
+
+    template <int dim>
+    void SafetyStage<dim>::judge_rest(const bool moved_on, const double limit,
+                                      SafetyTrial &trial) const
     {
       if (!moved_on)
         trial.verdict = Verdict::stable;
@@ -317,22 +342,30 @@ namespace quoin
                     " m, so that this factor is neither stable nor unstable");
     }
 
-    double SafetyStage::failure_displacement() const
+    template <int dim>
+    double SafetyStage<dim>::failure_displacement() const
     {
       if (safety.failure_displacement > 0.)
         return safety.failure_displacement;
-      const Model<2> &model = *system.model;
-      double energy         = model.blocks().stored_energy(base)
+      const Model<dim> &model = *system.model;
+      double energy           = model.blocks().stored_energy(base)
                       + model.joints().stored_energy(base);
-      if (const BlockContacts *contacts = system.solver->contacts())
-        energy += contacts->stored_energy(base);
-      AlignedArray<NodeVector<2>> forces(base.nodes.size(), NodeVector<2>());
-      for (const NodalLoad<2> *load : system.solver->stage_loads().nodal)
+      if constexpr (dim == 2)
+        if (const BlockContacts *contacts = system.solver->contacts())
+          energy += contacts->stored_energy(base);
+      AlignedArray<NodeVector<dim>> forces(base.nodes.size(),
+                                           NodeVector<dim>());
+      for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
         load->add_loads({ 0., base.time }, forces.data());
       model.nodes().exchange().add_to_owners(forces.data());
       double force = 0.;
       for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-        force += std::hypot(forces[i].v[0], forces[i].v[1]);
+      {
+        double square = 0.;
+        for (const double f : forces[i].v)
+          square += f * f;
+        force += std::sqrt(square);
+      }
       energy = dealii::Utilities::MPI::sum(energy, context.run.communicator);
       force  = dealii::Utilities::MPI::sum(force, context.run.communicator);
       return force > 0. && energy > 0.
@@ -340,19 +373,23 @@ namespace quoin
                  : failure_by_diagonal * system.nodes->table().diagonal();
     }
 
-    double SafetyStage::largest_displacement() const
+    template <int dim>
+    double SafetyStage<dim>::largest_displacement() const
     {
       double largest = 0.;
       for (unsigned int i = 0; i < system.model->nodes().n_owned(); ++i)
       {
         const double *now = state.nodes[i].u, *then = base.nodes[i].u;
-        largest
-            = std::max(largest, std::hypot(now[0] - then[0], now[1] - then[1]));
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += (now[d] - then[d]) * (now[d] - then[d]);
+        largest = std::max(largest, std::sqrt(square));
       }
       return dealii::Utilities::MPI::max(largest, context.run.communicator);
     }
 
-    void SafetyStage::finish()
+    template <int dim>
+    void SafetyStage<dim>::finish()
     {
       const double stable     = search.highest_stable();
       const double failing    = search.lowest_failing();
@@ -401,9 +438,15 @@ namespace quoin
     }
   } // namespace
 
-  std::unique_ptr<Stage> make_safety_stage(BlockContext<2> &context,
+  template <int dim>
+  std::unique_ptr<Stage> make_safety_stage(BlockContext<dim> &context,
                                            const unsigned int index)
   {
-    return std::make_unique<SafetyStage>(context, index);
+    return std::make_unique<SafetyStage<dim>>(context, index);
   }
+
+  template std::unique_ptr<Stage> make_safety_stage(BlockContext<2> &,
+                                                    unsigned int);
+  template std::unique_ptr<Stage> make_safety_stage(BlockContext<3> &,
+                                                    unsigned int);
 } // namespace quoin

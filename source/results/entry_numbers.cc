@@ -89,8 +89,8 @@ namespace quoin
                                  const Solver<dim> &solver)
   {
     EntryNumbers result = number_entries(model, solver);
-    if (state.template get<PlasticHistory>().cells.empty()
-        && state.template get<ConstructionState>().initial_stress.empty())
+    if (state.template get<PlasticHistory>().yielding.empty()
+        && state.template get<ConstructionState<dim>>().initial_stress.empty())
       result.cells.clear();
     return result;
   }

@@ -175,13 +175,15 @@ namespace quoin
     const SpaceJointHistory &history = state.get<SpaceJointHistory>();
     const auto *origin               = state.find<ResultOrigin<3>>();
     const bool is_moved              = origin && !origin->displacement.empty();
+    const bool slips_later           = origin && !origin->slip.empty();
     for (const std::string &name : joints.law_field_names())
       fields.of_laws.push_back({ name, {} });
     for (unsigned int i = 0; i < joints.faces().size(); ++i)
     {
       const SpaceJointFace &face = joints.faces()[i];
       // A joint between two ranks is written by the rank of its lower side.
-      if (!model.nodes().faces().joints[face.face].is_own[0])
+      if (!model.nodes().faces().joints[face.face].is_own[0]
+          || is_at_absent_block(model, i, state))
         continue;
       const SpaceJointFrame frame = joint_frame(face, state.nodes.data());
       const auto gaps             = joint_gaps(face, state.nodes.data());
@@ -215,13 +217,18 @@ namespace quoin
         if (is_moved)
           fields.earlier_displacement.push_back(earlier);
         fields.opening.push_back(gaps[k][0]);
-        fields.slip.push_back(in_plane(gaps[k][1], gaps[k][2]));
+        const double slipped[]
+            = { slip_at_origin(state, p, 0), slip_at_origin(state, p, 1) };
+        fields.slip.push_back(
+            in_plane(gaps[k][1] - slipped[0], gaps[k][2] - slipped[1]));
+        if (slips_later)
+          fields.earlier_slip.push_back(in_plane(slipped[0], slipped[1]));
         fields.normal_traction.push_back(history.normal_traction[p]);
         fields.shear_traction.push_back(in_plane(
             history.shear_traction[2 * p], history.shear_traction[2 * p + 1]));
         for (auto &[name, values] : fields.of_laws)
           values.push_back(joints.law_field(name, p, history));
-        fields.state.push_back(history.state[p]);
+        fields.state.push_back(state_since_origin(state, p));
       }
     }
     return fields;

@@ -549,16 +549,11 @@ namespace quoin
     }
     if (wanted.quantity == HistoryQuantity::joint)
       return joint_value(probe, state);
+    if (wanted.quantity == HistoryQuantity::yielding)
+      return yield_value(probe, state);
     if constexpr (dim == 2)
-      switch (wanted.quantity)
-      {
-      case HistoryQuantity::rotation:
+      if (wanted.quantity == HistoryQuantity::rotation)
         return rotation(probe.entity, state) / constants::degree;
-      case HistoryQuantity::yielding:
-        return yield_value(probe, state);
-      default:
-        break;
-      }
     return 0.;
   }
 
@@ -608,16 +603,16 @@ namespace quoin
     return sum;
   }
 
-  template <>
-  double Histories<2>::yield_value(const Probe &probe,
-                                   const State<2> &state) const
+  template <int dim>
+  double Histories<dim>::yield_value(const Probe &probe,
+                                     const State<dim> &state) const
   {
     if (probe.entity >= model.nodes().cells().n_deformable
         || !model.blocks().cell_data().law_of(probe.entity))
       return 0.;
-    const PlasticPoint point
+    const auto point
         = cell_history(model.blocks(), state.nodes.data(),
-                       state.get<PlasticHistory>(), probe.entity);
+                       state.template get<PlasticHistory>(), probe.entity);
     return probe.parameters.component == 0 ? point.state : point.plastic_shear;
   }
 
@@ -655,7 +650,9 @@ namespace quoin
     const SpaceJoints &joints        = model.joints();
     const SpaceJointFace &face       = joints.faces()[p / 3];
     const SpaceJointHistory &history = state.get<SpaceJointHistory>();
-    const SpaceJointGap gap = joint_gaps(face, state.nodes.data())[p % 3];
+    SpaceJointGap gap = joint_gaps(face, state.nodes.data())[p % 3];
+    for (unsigned int d = 0; d < 2; ++d)
+      gap[1 + d] -= slip_at_origin(state, p, d);
     switch (component)
     {
     case 0:
@@ -668,7 +665,7 @@ namespace quoin
       return std::hypot(history.shear_traction[2 * p],
                         history.shear_traction[2 * p + 1]);
     case 4:
-      return static_cast<double>(history.state[p]);
+      return static_cast<double>(state_since_origin(state, p));
     case 5:
     case 6:
       return joints.law_field(component == 5 ? "damage" : "crushing", p,
@@ -895,8 +892,9 @@ namespace quoin
     for (unsigned int i = 0; i < n_columns; ++i)
     {
       const HistoryParameters &wanted = probes[i].parameters;
-      const bool is_slip
-          = wanted.quantity == HistoryQuantity::joint && wanted.component == 1;
+      // Slips that are vectors count from the origin before their magnitude.
+      const bool is_slip = dim == 2 && wanted.quantity == HistoryQuantity::joint
+                           && wanted.component == 1;
       // A block that is absent begins where the mesh has it.
       if (is_absent[i])
         origin[i] = 0.;

@@ -47,8 +47,8 @@ namespace quoin
         { "stress 1", { Q::principal_stress, 0, "Pa", 0 } },
         { "stress 2", { Q::principal_stress, 1, "Pa", 0 } },
         { "stress 3", { Q::principal_stress, 2, "Pa", 3 } },
-        { "yielding", { Q::yielding, 0, "-" } },
-        { "plastic shear strain", { Q::yielding, 1, "-" } },
+        { "yielding", { Q::yielding, 0, "-", 0 } },
+        { "plastic shear strain", { Q::yielding, 1, "-", 0 } },
         { "rotation", { Q::rotation, 0, "deg" } },
         { "joint opening", { Q::joint, 0, "m", 0 } },
         { "joint slip", { Q::joint, 1, "m", 0 } },
@@ -312,6 +312,7 @@ namespace quoin
                            || quantity == HistoryQuantity::velocity
                            || is_of_two_points()
                            || quantity == HistoryQuantity::stress
+                           || quantity == HistoryQuantity::yielding
                            || quantity == HistoryQuantity::principal_stress;
     if (point_has_z != (dim == 3) && (has_point || point_has_z))
       throw InputError(where + "'Point' must have "

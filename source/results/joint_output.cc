@@ -119,6 +119,9 @@ namespace quoin
     if (!fields.earlier_displacement.empty())
       grid.point_data.push_back(
           { "earlier displacement", 3, flat(fields.earlier_displacement) });
+    if (!fields.earlier_slip.empty())
+      grid.point_data.push_back(
+          { "earlier slip", 3, flat(fields.earlier_slip) });
     for (const auto &[name, values] : fields.of_laws)
       grid.point_data.push_back({ name, 1, values });
     grid.cell_data = { { "state", 1, face_state },

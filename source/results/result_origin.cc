@@ -8,20 +8,23 @@ namespace quoin
 {
   namespace
   {
-    void count_joints_from(const Model<2> &model, const ResultReset &reset,
-                           State<2> &state)
+    template <int dim>
+    void count_joints_from(const Model<dim> &model, const ResultReset &reset,
+                           State<dim> &state)
     {
-      ResultOrigin<2> &origin     = state.get<ResultOrigin<2>>();
-      const JointHistory &history = state.get<JointHistory>();
-      const auto &segments        = model.joints().segments();
+      ResultOrigin<dim> &origin = state.template get<ResultOrigin<dim>>();
+      const auto &history       = state.template get<JointHistoryOf<dim>>();
+      const auto &faces         = joint_faces(model.joints());
+      constexpr unsigned int n  = dim * (dim - 1); // components of a face
       if (reset.slips)
-        origin.slip.resize(2 * segments.size());
-      for (unsigned int p = 0; p < origin.slip.size(); ++p)
-        if (is_at_absent_block(model, p / 2, state))
-          origin.slip[p] = 0.;
+        origin.slip.resize(n * faces.size());
+      for (unsigned int c = 0; c < origin.slip.size(); ++c)
+        if (is_at_absent_block(model, c / n, state))
+          origin.slip[c] = 0.;
         else if (reset.slips)
-          origin.slip[p]
-              = joint_gaps(segments[p / 2], state.nodes.data())[p % 2][1];
+          origin.slip[c] = joint_gaps(
+              faces[c / n],
+              state.nodes.data())[c % n / (dim - 1)][1 + c % (dim - 1)];
 
       if (reset.joint_states)
         origin.has_failed.assign(history.state.size(), 0);
@@ -31,20 +34,16 @@ namespace quoin
     }
   } // namespace
 
-  template <>
-  void note_failed_joints(State<2> &state)
+  template <int dim>
+  void note_failed_joints(State<dim> &state)
   {
     AlignedArray<std::uint8_t> &has_failed
-        = state.get<ResultOrigin<2>>().has_failed;
-    const AlignedArray<JointState> &now = state.get<JointHistory>().state;
+        = state.template get<ResultOrigin<dim>>().has_failed;
+    const AlignedArray<JointState> &now
+        = state.template get<JointHistoryOf<dim>>().state;
     for (unsigned int p = 0; p < has_failed.size(); ++p)
       if (now[p] == JointState::slipping || now[p] == JointState::open)
         has_failed[p] = 1;
-  }
-
-  template <>
-  void note_failed_joints(State<3> &)
-  {
   }
 
   template <int dim>
@@ -61,20 +60,24 @@ namespace quoin
           displacement[i].v[d] = 0.;
         else if (reset.displacements)
           displacement[i].v[d] = state.nodes[i].u[d];
-    if constexpr (dim == 2)
-      count_joints_from(model, reset, state);
+    count_joints_from(model, reset, state);
   }
 
-  JointState state_since_origin(const State<2> &state, const unsigned int p)
+  template <int dim>
+  JointState state_since_origin(const State<dim> &state, const unsigned int p)
   {
-    const JointState now = state.get<JointHistory>().state[p];
-    const auto *origin   = state.find<ResultOrigin<2>>();
+    const JointState now = state.template get<JointHistoryOf<dim>>().state[p];
+    const auto *origin   = state.template find<ResultOrigin<dim>>();
     return now == JointState::slipped && origin && !origin->has_failed.empty()
                    && !origin->has_failed[p]
                ? JointState::intact
                : now;
   }
 
+  template void note_failed_joints(State<2> &);
+  template void note_failed_joints(State<3> &);
+  template JointState state_since_origin(const State<2> &, unsigned int);
+  template JointState state_since_origin(const State<3> &, unsigned int);
   template void count_from(const Model<2> &, const ResultReset &, State<2> &);
   template void count_from(const Model<3> &, const ResultReset &, State<3> &);
 } // namespace quoin

@@ -33,11 +33,13 @@ namespace quoin
     void enter_construction(ParameterEntries &entries, StageParameters &stage)
     {
       entries.list("Excavate", stage.excavate,
-                   "Physical surfaces whose blocks are excavated at the start "
+                   "Physical surfaces, in three dimensions volumes, whose "
+                   "blocks are excavated at the start "
                    "of the stage.");
       entries.list(
           "Fill", stage.fill,
-          "Physical surfaces whose blocks are placed at the start of the "
+          "Physical surfaces, in three dimensions volumes, whose blocks are "
+          "placed at the start of the "
           "stage, with the geometry of the mesh and free of stress. Blocks "
           "that no earlier stage excavates are absent until then.");
       entries.within(

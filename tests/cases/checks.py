@@ -1218,6 +1218,134 @@ def excavated_hole_yielding(case, folder, output, histories):
     return errors
 
 
+def volumes(grid):
+    """Volumes of tetrahedra in the mesh."""
+    a, b, c, d = np.moveaxis(grid.points[grid.cells], 1, 0)
+    return np.abs(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)) / 6
+
+
+def space_sphere(case, folder, output, histories):
+    """Displacements of the wall of a spherical cavity at the end of each stage,
+    relative to the formula's; the core is gone from the fields."""
+    exact = reference_module(folder)
+    path = os.path.join(output, "blocks.pvd")
+    errors = {}
+    for (time, _), share in zip(vtu.read_pvd(path), (0.5, 1.0)):
+        grid = vtu.read_at(path, time)
+        x, u = grid.points, grid.point_data["displacement"]
+        r = np.linalg.norm(x, axis=1)
+        wall = np.abs(r - 1) < 1e-6
+        wanted = exact.elastic(1.0, share) * x[wall]
+        errors["wall, share %g" % share] = float(
+            np.max(np.linalg.norm(u[wall] - wanted, axis=1))
+            / abs(exact.elastic(1.0, share)))
+        errors["core left, share %g" % share] = float(np.sum(r < 1 - 1e-6))
+    errors["energy residual"] = residual_of(energies(output))
+    return errors
+
+
+def space_sphere_yielding(case, folder, output, histories):
+    """Mean displacement of the wall and the radius of the plastic zone, by the
+    volume that has yielded; displacements of all nodes, and stresses of cells
+    relative to the pressure."""
+    exact = reference_module(folder).Yielding()
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    x, u = grid.points, grid.point_data["displacement"]
+    r = np.linalg.norm(x, axis=1)
+    radial = np.sum(x * u, axis=1) / r
+    wanted = exact.displacement(r)
+    wall = r < 1 + 1e-6
+    volume = volumes(grid)
+    yielded = np.sum(volume[grid.cell_data["yielding"] > 0])
+    # the facets of the wall leave a little rock inside of it
+    radius = (8 * 3 / (4 * np.pi) * (yielded - np.sum(volume)) + 27)**(1 / 3)
+    centre = x[grid.cells].mean(axis=1)
+    rc = np.linalg.norm(centre, axis=1)
+    n = centre / rc[:, None]
+    s = grid.cell_data["stress"]
+    along = (s[:, 0] * n[:, 0]**2 + s[:, 1] * n[:, 1]**2 + s[:, 2] * n[:, 2]**2
+             + 2 * (s[:, 3] * n[:, 0] * n[:, 1] + s[:, 4] * n[:, 0] * n[:, 2]
+                    + s[:, 5] * n[:, 1] * n[:, 2]))
+    around = 0.5 * (np.sum(s[:, :3], axis=1) - along)
+    error = np.sqrt(np.average(
+        (np.array([along, around]) - exact.stresses(rc))**2, axis=1,
+        weights=volume * (rc < 2.5)))
+    print("  wall %.4f mm, formula %.4f; plastic radius %.3f m, formula %.3f"
+          % (1e3 * np.mean(radial[wall]), 1e3 * exact.displacement(1.0), radius,
+             exact.radius))
+    return {
+        "displacement of the wall": float(
+            abs(np.mean(radial[wall]) / exact.displacement(1.0) - 1)),
+        "plastic radius": float(abs(radius / exact.radius - 1)),
+        "displacement of a node / largest": float(
+            np.max(np.abs(radial - wanted)) / np.max(np.abs(wanted))),
+        "stress / pressure, rms": float(np.max(error) / exact.p0),
+        "energy residual": residual_of(energies(output))}
+
+
+def space_fill(case, folder, output, histories):
+    """Displacements of the top of both lifts and the traction between them at
+    the end of each stage, relative to the largest of the stage."""
+    exact = reference_module(folder)
+    with open(os.path.join(output, "summary.json")) as stream:
+        ends = json.load(stream)["stages"]
+    errors = {}
+    for (stage, end), wanted in zip(ends.items(), exact.stages()):
+        row = np.flatnonzero(
+            histories["time"] <= end["time [s]"] * (1 + 1e-9))[-1]
+        found = [histories[name][row] for name in ("low", "high", "traction")]
+        scale = max(abs(wanted[0]), abs(wanted[1]))
+        errors["displacements, " + stage] = float(
+            np.max(np.abs(np.subtract(found[:2], wanted[:2]))) / scale)
+        errors["traction, " + stage] = float(
+            abs(found[2] - wanted[2]) / abs(exact.stages()[-1][2]))
+    errors["energy residual"] = residual_of(energies(output))
+    return errors
+
+
+def space_tunnel(case, folder, output, histories):
+    """Displacements of the wall of a tunnel, relative to the largest."""
+    exact = reference_module(folder)
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    x, u = grid.points, grid.point_data["displacement"]
+    wall = np.abs(np.hypot(x[:, 0], x[:, 2]) - 1) < 1e-6
+    wanted = exact.wall(np.arctan2(x[wall, 2], x[wall, 0]))
+    errors = {"wall": float(np.max(np.abs(u[wall][:, ::2] - wanted))
+                            / np.max(np.abs(wanted))),
+              "core left": float(np.sum(np.hypot(x[:, 0], x[:, 2])
+                                        < 1 - 1e-6))}
+    errors["energy residual"] = residual_of(energies(output))
+    return errors
+
+
+def space_rest(case, folder, output, histories):
+    """Stresses of all cells and tractions of the joints under the initial
+    stress and gravity, relative to the largest stress, and the motion relative
+    to the settlement by the weight."""
+    exact = reference_module(folder)
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    wanted = exact.stress(grid.points[grid.cells].mean(axis=1))
+    scale = np.max(np.abs(wanted))
+    joints = vtu.read_at(os.path.join(output, "joints.pvd"))
+    n = np.repeat(joints.cell_data["normal"], 3, axis=0)
+    xx, yy, zz, xy, xz, yz = np.moveaxis(exact.stress(joints.points), 1, 0)
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    traction = np.einsum("ijk,kj->ki", tensor, n)
+    found = (joints.point_data["normal traction"][:, None] * n
+             + joints.point_data["shear traction"])
+    # of a traction that is linear along a face, by the forces of its points
+    mean = traction.reshape(-1, 3, 3)
+    mean = (mean + np.sum(mean, axis=1)[:, None]) / 4
+    return {
+        "stresses": float(np.max(np.abs(grid.cell_data["stress"] - wanted))
+                          / scale),
+        "tractions of joints": float(
+            np.max(np.abs(found.reshape(-1, 3, 3) - mean)) / scale),
+        "displacement / settlement": float(
+            np.max(np.abs(grid.point_data["displacement"]))
+            / exact.settlement())}
+
+
 def in_situ_rest(case, folder, output, histories):
     """Motion of the ground relative to the settlement by its own weight, and
     stresses of the cells and tractions of the joints relative to the largest."""

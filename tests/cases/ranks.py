@@ -70,6 +70,12 @@ COLLAPSING = ["Materials/block/Law=linear elastic",
               "Histories/moved/Quantity=displacement x",
               "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 BARS = os.path.join(common.ROOT, "tests", "cases", "bars.prm")
+SPACE_YIELDING = ["Materials/rock/Law=Mohr-Coulomb",
+                  "Materials/rock/Cohesion=1e6",
+                  "Materials/rock/Friction angle=30",
+                  "Stages/excavate/End=time",
+                  "Stages/excavate/Duration=4e-3",
+                  "Stages/excavate/Release duration=2e-3"]
 # A bonded liner with hinges, and one that slips.
 LINER = ["Loads/in_situ/Stress=-10e6, -5e6, 0",
          "Beams/shotcrete/Hinge moment=3e3", "Stages/excavation/End=time",
@@ -192,6 +198,10 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                           "case.prm"),
                              ["Stages/pull/End=time",
                               "Stages/pull/Duration=0.01"]),
+            # rock that yields around what is excavated, under initial stress
+            "space, excavation": (os.path.join(common.VERIFICATION,
+                                               "space_tunnel", "case.prm"),
+                                  SPACE_YIELDING),
             # a load pattern on divided blocks
             "pattern": (COLLAPSE, COLLAPSING),
             "pattern, named": (

@@ -47,6 +47,16 @@ CASES = {
                                    "case.prm"),
                       ["Output/Checkpoint interval=0.02",
                        "Output/Field interval=0.1"], 2, 2),
+    # rock that yields around what is excavated, under initial stress
+    "space, excavation": (os.path.join(common.VERIFICATION, "space_tunnel",
+                                       "case.prm"),
+                          ["Materials/rock/Law=Mohr-Coulomb",
+                           "Materials/rock/Cohesion=1e6",
+                           "Materials/rock/Friction angle=30",
+                           "Stages/excavate/End=time",
+                           "Stages/excavate/Duration=4e-3",
+                           "Stages/excavate/Release duration=2e-3",
+                           "Output/Checkpoint interval=0.02"], 2, 2),
     # the factor of a load pattern, past its peak
     "pattern": (os.path.join(common.VERIFICATION, "collapse_load",
                              "softening.prm"),

@@ -70,6 +70,7 @@ CASES = {
     "implicit, bars": of_ranks("implicit, bars", UP),
     "space, joints": of_ranks("space, joints", ALL),
     "space, crack": of_ranks("space, crack", UP),
+    "space, excavation": of_ranks("space, excavation", UP),
     "static far field": of_ranks("static far field", ALL),
     "construction": of_ranks("construction", ALL),
     "construction, divided": of_ranks("construction, divided", ALL),

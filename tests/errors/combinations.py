@@ -118,6 +118,7 @@ FEATURES = [
 IN_SPACE = [("stone", "rock"), ("Groups=rock", "Groups=low"),
             ("Groups=lid", "Groups=high"), ("=lid", "=high"),
             ("Boundary=bed", "Boundary=middle"),
+            ("-1e5, -1e5, 0", "-1e5, -1e5, -1e5, 0, 0, 0"),
             ("Horizontal=free", "Lateral=free")]
 SPACE = (["Mesh/Joints along=middle", "Joints/Names=bed",
           "Joints/bed/Curves=middle",

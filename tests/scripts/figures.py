@@ -30,6 +30,7 @@ from quoin.figures import joint_figure  # noqa: E402
 from quoin import moments  # noqa: E402
 from quoin import results as quoin_results  # noqa: E402
 from quoin import run_parameters  # noqa: E402
+from quoin.figures import space_figure  # noqa: E402
 from quoin.figures import stress_figure  # noqa: E402
 import synthetic_runs  # noqa: E402
 from quoin import vtu  # noqa: E402
@@ -65,6 +66,54 @@ class Space(Says):
                            "file='blocks.vtu'/></Collection></VTKFile>")
             self.says(["three dimensions", "paraview_view"],
                       block_figure.Frame, folder, None)
+            self.assertTrue(space_figure.is_in_space(folder))
+
+    corners = np.array([[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.],
+                        [1., 1., 1.]])
+
+    def test_surface_of_two_tetrahedra(self):
+        cells = np.array([[0, 1, 2, 3], [1, 2, 3, 4]])
+        faces, owner = space_figure.surface(cells)
+        self.assertEqual(sorted(owner), [0, 0, 0, 1, 1, 1])
+        self.assertNotIn([1, 2, 3], np.sort(faces, axis=1).tolist())
+        # normals of the first one point away from its middle
+        for face in faces[owner == 0]:
+            a, b, c = self.corners[face]
+            outwards = a - self.corners[:4].mean(axis=0)
+            self.assertGreater(np.cross(b - a, c - a) @ outwards, 0.)
+
+    def area(self, polygon):
+        a = polygon[0]
+        return 0.5 * np.linalg.norm(sum(
+            np.cross(b - a, c - a) for b, c in zip(polygon[1:], polygon[2:])))
+
+    def test_sections(self):
+        tetrahedron = self.corners[:4]
+        # x = 1/2, and the plane halfway between two opposite edges
+        self.assertAlmostEqual(self.area(space_figure.section(
+            tetrahedron, tetrahedron[:, 0] - 0.5)), 0.125)
+        self.assertAlmostEqual(self.area(space_figure.section(
+            tetrahedron, tetrahedron[:, 0] + tetrahedron[:, 1] - 0.5)),
+            0.25 * np.sqrt(2))
+        half = space_figure.clipped(tetrahedron[:3], tetrahedron[:3, 0] - 0.5)
+        self.assertAlmostEqual(self.area(half), 0.375)
+
+    def test_the_nearest_is_seen(self):
+        canvas = space_figure.Canvas(np.zeros(2), np.ones(2))
+        triangle = np.array([[0., 0., 1.], [1., 0., 1.], [0., 1., 1.]])
+        canvas.add_triangle(triangle, [0., 0., 1.])
+        canvas.add_triangle(triangle - [0., 0., 2.], [1., 0., 0.])
+        middle = space_figure.PIXELS // 4
+        self.assertEqual(canvas.image[middle, middle].tolist(), [0., 0., 1.])
+        self.assertEqual(canvas.image[-1, -1].tolist(), [1., 1., 1.])
+
+    def test_states_of_faces(self):
+        joints = Grid(0., self.corners[1:4] + 0.1, np.array([[0, 1, 2]]),
+                      {"displacement": np.full((3, 3), 0.1)},
+                      {"state": np.array([3])})
+        faces = np.array([[1, 2, 3], [0, 1, 2]])
+        self.assertEqual(space_figure.state_of_faces(
+            self.corners, faces, joints).tolist(), [3, -1])
 
 
 class Moments(Says):

@@ -31,6 +31,15 @@ namespace quoin
   template <int dim>
   using CellStiffness
       = std::conditional_t<dim == 2, PlaneStiffness, SpaceStiffness>;
+
+  /** Stress of a cell: xx, yy, xy, zz in the plane, a SpaceTensor in space. */
+  template <int dim>
+  using CellStress
+      = std::conditional_t<dim == 2, std::array<double, 4>, SpaceTensor>;
+
+  /** Yield law of a cell. */
+  template <int dim>
+  using YieldLaw = std::conditional_t<dim == 2, MohrCoulomb, SpaceMohrCoulomb>;
 } // namespace quoin
 
 #endif

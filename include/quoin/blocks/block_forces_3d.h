@@ -6,6 +6,7 @@
 
 #include <quoin/blocks/block_forces.h>
 #include <quoin/blocks/tetrahedron.h>
+#include <quoin/materials/space_mohr_coulomb.h>
 
 namespace quoin
 {
@@ -26,6 +27,9 @@ namespace quoin
     /** Index into stiffness of each cell; empty if there is only one. */
     std::vector<unsigned int> cell_stiffness;
 
+    /** Yield law of cells of each stiffness, if any; empty: no cell yields. */
+    std::vector<std::optional<SpaceMohrCoulomb>> laws;
+
     /** Stress of each cell at zero strain [Pa]; it turns with the cell.
         Empty: none. */
     AlignedArray<SpaceTensor> initial_stress;
@@ -41,21 +45,35 @@ namespace quoin
       return initial_stress.empty() ? SpaceTensor{} : initial_stress[cell];
     }
 
+    /** Whether any cell has a yield law. */
     bool is_plastic() const
     {
-      return false;
+      return std::any_of(laws.begin(), laws.end(),
+                         [](const auto &law) { return law.has_value(); });
+    }
+
+    /** Yield law of cells of one stiffness; null: elastic. */
+    const SpaceMohrCoulomb *law(const unsigned int s) const
+    {
+      return laws.empty() || !laws[s] ? nullptr : &*laws[s];
+    }
+    const SpaceMohrCoulomb *law_of(const unsigned int cell) const
+    {
+      return law(cell_stiffness.empty() ? 0 : cell_stiffness[cell]);
     }
   };
 
   /**
-   * Internal forces of blocks of linear elastic tetrahedra (tetrahedron.h has
-   * the element) that undergo any rotation; otherwise as BlockForces<2>.
+   * Internal forces of blocks of tetrahedra (tetrahedron.h has the element)
+   * that undergo any rotation, linear elastic or elastoplastic; otherwise as
+   * BlockForces<2>.
    *
    * The cells of a tile are taken in chunks of few nodes, which are copied to
    * the first level cache before and added to the forces after. Lane l takes
    * the l-th part of a chunk, so that cells that are computed together have no
    * nodes in common. Geometry is computed from the positions in each step:
-   * that is cheaper than to read it from memory.
+   * that is cheaper than to read it from memory. Cells that yield come one by
+   * one after them.
    */
   template <>
   class BlockForces<3> : public ForceOperator<3>
@@ -68,7 +86,6 @@ namespace quoin
     {
       return "blocks";
     }
-    /** Adds an empty slice: elastic cells have no internal variables. */
     void prepare(State<3> &state) const override;
     void add_forces(const StepContext &step, State<3> &state,
                     const NodeForces<3> &forces) override;
@@ -112,7 +129,8 @@ namespace quoin
       return tiles[tile].cells;
     }
 
-    /** Adds the internal forces of a tile's cells; returns 0 [J]. */
+    /** Adds the internal forces of a tile's cells. Updates @p history for the
+        current positions and returns the energy that this dissipates [J]. */
     double add_forces(unsigned int tile, const NodeRecord<3> *nodes,
                       PlasticHistory &history, NodeVector<3> *force) const;
 
@@ -127,16 +145,14 @@ namespace quoin
                             NodeVector<3> *force) const;
 
     /** A cell's forces and, if @p with_stiffness, minus their derivative; entry
-        3 i + d is node i, component d. Returns true. */
+        3 i + d is node i, component d. Returns true. For elastic cells. */
     bool linearise(unsigned int cell, const NodeRecord<3> *nodes,
                    PlasticHistory &history, CellLinearisation &result,
                    bool with_stiffness = true) const;
 
-    /** Returns 0 [J], because there are no internal variables. */
-    double update(const NodeRecord<3> *, PlasticHistory &) const
-    {
-      return 0.;
-    }
+    /** Updates @p history as add_forces() does and returns the dissipation [J].
+     */
+    double update(const NodeRecord<3> *nodes, PlasticHistory &history) const;
 
   private:
     /** Cells of equal stiffness whose nodes are copied together. */
@@ -156,6 +172,8 @@ namespace quoin
       NodeRange cells;
       std::size_t begin_chunk;
       std::size_t end_chunk;
+      std::size_t begin_plastic; /**< index into plastic_cells */
+      std::size_t end_plastic;
     };
 
     /** Cuts cells of equal stiffness into chunks. */
@@ -176,6 +194,7 @@ namespace quoin
     std::vector<Tile> tiles;
     std::vector<Chunk> chunks;
     std::vector<std::uint32_t> chunk_nodes;
+    std::vector<unsigned int> plastic_cells; /**< cells with a yield law */
 
     /** Nodes 0, 1, 2, 3 of each lane, in bytes into the chunk's forces. */
     AlignedArray<std::uint16_t> offsets;

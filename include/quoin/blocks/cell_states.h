@@ -49,7 +49,7 @@ namespace quoin
                      std::vector<SpaceTensor> &strain);
 
   /**
-   * Stress xx, yy, xy, zz [Pa] in the rotating frame by the strain of a cell,
+   * Stress [Pa] in the rotating frame by the strain of a cell,
    * with any @p stiffness. With that of the cell plus the initial stress it is
    * the cell's stress, if it has never yielded.
    */
@@ -57,34 +57,50 @@ namespace quoin
                                          const NodeRecord<2> *nodes,
                                          std::size_t cell,
                                          const PlaneStiffness &stiffness);
+  SpaceTensor stress_of_strain(const BlockForces<3> &blocks,
+                               const NodeRecord<3> *nodes, std::size_t cell,
+                               const SpaceStiffness &stiffness);
 
   /**
-   * Stress xx, yy, xy, zz [Pa] in the rotating frame of a cell with a yield law
-   * and a @p history that is up to date, initial stress included: an elastic
-   * cell with this stress has its forces.
+   * Stress [Pa] in the rotating frame of a cell with a yield law and a @p
+   * history that is up to date, initial stress included: an elastic cell with
+   * this stress has its forces.
    */
   std::array<double, 4> turning_stress(const BlockForces<2> &blocks,
                                        const NodeRecord<2> *nodes,
                                        const PlasticHistory &history,
                                        std::size_t cell);
+  SpaceTensor turning_stress(const BlockForces<3> &blocks,
+                             const NodeRecord<3> *nodes,
+                             const PlasticHistory &history, std::size_t cell);
 
   /** Sets the plastic stretch of a cell that has yielded so that @p law
       gives the same stress. */
   void take_over_stress(const BlockForces<2> &blocks,
                         const NodeRecord<2> *nodes, std::size_t cell,
                         const MohrCoulomb &law, PlasticHistory &history);
+  void take_over_stress(const BlockForces<3> &blocks,
+                        const NodeRecord<3> *nodes, std::size_t cell,
+                        const SpaceMohrCoulomb &law, PlasticHistory &history);
 
   /** Internal variables of cells without strain; empty: no cell yields. */
   PlasticHistory initial_history(const BlockForces<2> &blocks);
+  PlasticHistory initial_history(const BlockForces<3> &blocks);
 
   /** Resets @p cell to initial_history(), if any cell yields. */
   void forget_history(const BlockForces<2> &blocks, unsigned int cell,
+                      PlasticHistory &history);
+  void forget_history(const BlockForces<3> &blocks, unsigned int cell,
                       PlasticHistory &history);
 
   /** Internal variables of a cell that yields, updated for the positions. */
   PlasticPoint cell_history(const BlockForces<2> &blocks,
                             const NodeRecord<2> *nodes,
                             const PlasticHistory &history, unsigned int cell);
+  SpacePlasticPoint cell_history(const BlockForces<3> &blocks,
+                                 const NodeRecord<3> *nodes,
+                                 const PlasticHistory &history,
+                                 unsigned int cell);
 
   /**
    * The first cell that is inverted, also in the reference configuration; the
@@ -101,8 +117,9 @@ namespace quoin
   double add_forces_by_cell(const BlockForces<2> &blocks, unsigned int tile,
                             const NodeRecord<2> *nodes, PlasticHistory &history,
                             NodeVector<2> *force);
-  void add_forces_by_cell(const BlockForces<3> &blocks, unsigned int tile,
-                          const NodeRecord<3> *nodes, NodeVector<3> *force);
+  double add_forces_by_cell(const BlockForces<3> &blocks, unsigned int tile,
+                            const NodeRecord<3> *nodes, PlasticHistory &history,
+                            NodeVector<3> *force);
 
   /** BlockForces::add_viscous_forces(). */
   void add_viscous_forces_by_cell(const BlockForces<2> &blocks,

@@ -31,6 +31,7 @@ namespace quoin
    * ramps down. Their energy is booked as external work, as is what a change of
    * stiffness adds.
    */
+  template <int dim>
   class Construction
   {
   public:
@@ -38,16 +39,17 @@ namespace quoin
      * Keeps a reference to @p model. Throws an InputError about stages that
      * name or order groups wrongly, or that would cut a block.
      */
-    Construction(Model<2> &model, const std::vector<StageParameters> &stages);
+    Construction(Model<dim> &model, const std::vector<StageParameters> &stages);
 
     /**
      * Called before @p solver begins stage @p stage, with the state at the end
      * of the previous one. Collective.
      */
-    void begin_stage(unsigned int stage, Solver<2> &solver, State<2> &state);
+    void begin_stage(unsigned int stage, Solver<dim> &solver,
+                     State<dim> &state);
 
     /** Called instead when @p state is one within stage @p stage. */
-    void resume_stage(unsigned int stage, const State<2> &state);
+    void resume_stage(unsigned int stage, const State<dim> &state);
 
     /** Whether each physical surface is absent after the last stage. */
     std::vector<bool> absent_in_the_end() const;
@@ -82,15 +84,16 @@ namespace quoin
     bool is_in(unsigned int block, const std::vector<bool> &groups) const;
     std::vector<unsigned int> blocks_in(const std::vector<bool> &groups) const;
     /** Stored energy of this rank [J]. */
-    double stored_energy(const State<2> &state) const;
-    void take_away(const Step &step, Solver<2> &solver, State<2> &state) const;
-    void place(const Step &step, State<2> &state) const;
+    double stored_energy(const State<dim> &state) const;
+    void take_away(const Step &step, Solver<dim> &solver,
+                   State<dim> &state) const;
+    void place(const Step &step, State<dim> &state) const;
     /** Properties of the model after @p n stages. */
     ModelProperties properties_after(unsigned int n) const;
     /** Restores the model after @p n stages. */
-    void restore(unsigned int n, const ConstructionState &state);
+    void restore(unsigned int n, const ConstructionState<dim> &state);
 
-    Model<2> &model;
+    Model<dim> &model;
     const ModelProperties at_start;
     const std::vector<bool> absent_at_start; /**< flags of physical surfaces */
     std::vector<Step> steps;

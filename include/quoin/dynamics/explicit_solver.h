@@ -268,8 +268,6 @@ namespace quoin
   template <>
   void ExplicitSolver<2>::look_at_box(State<2> &state);
   template <>
-  void ExplicitSolver<2>::check_time_step(const State<2> &state) const;
-  template <>
   void ExplicitSolver<2>::remove_blocks(const std::vector<BlockOutside> &found,
                                         State<2> &state);
 } // namespace quoin

@@ -5,41 +5,69 @@
 #define quoin_joint_elements_joint_changes_h
 
 #include <quoin/joint_elements/matched_joints.h>
+#include <quoin/joint_elements/space_joints.h>
 
 // How joints begin, under stress, and how they change between stages: where
 // blocks are taken away or placed, or follow other laws.
 
 namespace quoin
 {
-  /** Stress xx, yy, xy [Pa] for both points of a joint face. */
-  using JointFaceStress = std::array<std::array<double, 3>, 2>;
+  /** Stress for each point of a joint face [Pa]: xx, yy, xy, or xx, yy, zz,
+      xy, xz, yz. */
+  template <int dim>
+  using JointFaceStress
+      = std::array<std::array<double, dim *(dim + 1) / 2>, dim>;
 
   /** Sets the tractions that balance an initial stress at rest; @p face_stress
       has an entry for each of LocalFaces::joints. */
   void initialise_joints(const MatchedJoints &joints,
-                         const std::vector<JointFaceStress> &face_stress,
+                         const std::vector<JointFaceStress<2>> &face_stress,
                          State<2> &state);
+  void initialise_joints(const SpaceJoints &joints,
+                         const std::vector<JointFaceStress<3>> &face_stress,
+                         State<3> &state);
 
   /** Points, of all ranks, whose tractions exceed their strength. */
   double n_beyond_strength(const MatchedJoints &joints,
                            const JointHistory &history, MPI_Comm communicator);
+  double n_beyond_strength(const SpaceJoints &joints,
+                           const SpaceJointHistory &history,
+                           MPI_Comm communicator);
 
-  /** Adds the forces [N] of segment @p i by its tractions in @p state. */
+  /** Adds the forces [N] of face @p i by its tractions in @p state. */
   void add_traction_forces(const MatchedJoints &joints, unsigned int i,
                            const State<2> &state, NodeVector<2> *force);
+  void add_traction_forces(const SpaceJoints &joints, unsigned int i,
+                           const State<3> &state, NodeVector<3> *force);
 
-  /** Segment @p i is no joint from now on: a side of it is not there. */
+  /** Face @p i is no joint from now on: a side of it is not there. */
   void detach_joint(unsigned int i, JointHistory &history);
+  void detach_joint(unsigned int i, SpaceJointHistory &history);
 
-  /** Segment @p i is an intact joint, free of traction where it is now. */
+  /** Face @p i is an intact joint, free of traction where it is now. */
   void begin_joint_anew(const MatchedJoints &joints, unsigned int i,
                         State<2> &state);
+  void begin_joint_anew(const SpaceJoints &joints, unsigned int i,
+                        State<3> &state);
 
   /**
    * Inelastic opening and slip become those with which the tractions that
    * @p state has are those of the laws at its gaps.
    */
   void keep_joint_tractions(const MatchedJoints &joints, State<2> &state);
+  void keep_joint_tractions(const SpaceJoints &joints, State<3> &state);
+
+  /** The joint faces of a rank, which both kinds of joints number alike. */
+  inline const std::vector<JointSegment> &
+  joint_faces(const MatchedJoints &joints)
+  {
+    return joints.segments();
+  }
+  inline const std::vector<SpaceJointFace> &
+  joint_faces(const SpaceJoints &joints)
+  {
+    return joints.faces();
+  }
 } // namespace quoin
 
 #endif

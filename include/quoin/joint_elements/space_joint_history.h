@@ -28,10 +28,14 @@ namespace quoin
     /** Internal variables of the laws; those that none has are empty. */
     std::array<AlignedArray<double>, JointHistory::most_internal> internal;
     AlignedArray<JointState> state;
+    /** Whether each face is no joint, because a side of it is not there. */
+    AlignedArray<std::uint8_t> detached;
 
-    /** For @p n points with @p n_internal internal variables. */
-    void resize(const std::size_t n, const unsigned int n_internal = 0)
+    /** For @p n_faces with @p n_internal internal variables. */
+    void resize(const std::size_t n_faces, const unsigned int n_internal = 0)
     {
+      const std::size_t n = 3 * n_faces;
+      detached.resize(n_faces, 0);
       for (unsigned int i = 0; i < n_internal; ++i)
         internal[i].resize(n, 0.);
       normal_traction.resize(n, 0.);
@@ -51,6 +55,7 @@ namespace quoin
       for (AlignedArray<double> &variable : internal)
         visitor.own(variable, 3);
       visitor.own(state, 3);
+      visitor.own(detached);
     }
 
     template <typename Archive>

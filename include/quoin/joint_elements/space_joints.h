@@ -74,6 +74,9 @@ namespace quoin
     void prepare(const NodeMap<3> &nodes,
                  const std::vector<JointSetParameters> &sets);
 
+    /** Replaces the laws of the sets by others of the same kinds. */
+    void set_laws(const std::vector<JointSetParameters> &sets);
+
     const char *kind() const override
     {
       return "joints";

@@ -4,6 +4,8 @@
 #ifndef quoin_loads_in_situ_stress_h
 #define quoin_loads_in_situ_stress_h
 
+#include <deal.II/base/point.h>
+
 #include <array>
 #include <functional>
 #include <vector>
@@ -18,9 +20,10 @@ namespace quoin
    * @f[ \sigma_{yy} = -\left(p + \int_y^{h(x)} \gamma \, dy\right), \quad
    *     \sigma_{xx} = K_0 \sigma_{yy} + \sigma_h, \quad \sigma_{xy} = 0 , @f]
    * tension positive, and out of the plane the same with a ratio of its own.
-   * p may depend on x, the ratios and sigma_h on x and y. It balances gravity
-   * below a horizontal surface, not below a slope, if p, K_0 and sigma_h do not
-   * change with x. It is zero above the surface.
+   * In three dimensions z is in the place of y, and y out of the plane. p may
+   * depend on the horizontal place, the ratios and sigma_h on any. It balances
+   * gravity below a horizontal surface, not below a slope, if p, K_0 and
+   * sigma_h do not change with x. It is zero above the surface.
    */
   struct InSituStress
   {
@@ -31,17 +34,19 @@ namespace quoin
       double foot;        /**< y of its base [m]; not used for the last layer */
     };
 
-    /** A value by x and y [m]. */
-    using Field = std::function<double(double, double)>;
+    /** A value by the place [m]. */
+    using Field = std::function<double(const dealii::Point<3> &)>;
     /** The same everywhere. */
     static Field uniform(const double value)
     {
-      return [value](double, double) { return value; };
+      return [value](const dealii::Point<3> &) { return value; };
     }
 
     std::vector<std::array<double, 2>> surface; /**< x (ascending), y [m] */
-    Field surface_function;    /**< height by x instead; or null [m] */
-    std::vector<Layer> layers; /**< downwards */
+    Field surface_function; /**< height by the place instead; or null [m] */
+    bool surface_names_y = false; /**< which is the height in the plane */
+    bool names_z         = false; /**< whether an expression does */
+    std::vector<Layer> layers;    /**< downwards */
     Field pressure           = uniform(0.); /**< p on the surface [Pa] */
     Field horizontal_ratio   = uniform(1.); /**< K_0 [-] */
     Field horizontal_stress  = uniform(0.); /**< sigma_h [Pa] */
@@ -50,11 +55,21 @@ namespace quoin
     /** Added to sigma_zz [Pa]. */
     Field out_of_plane_stress = uniform(0.);
 
-    /** y of the surface at @p x; constant beyond the ends of the line [m]. */
-    double surface_height(double x) const;
+    /** Height of the surface at @p p; constant beyond the ends of the line
+        [m]. */
+    double surface_height(const dealii::Point<3> &p) const;
 
-    /** Stress xx, yy, xy, zz [Pa] at (@p x, @p y). */
-    std::array<double, 4> stress(double x, double y) const;
+    /** Normal stress along x, along the axis @p vertical and along the third
+        one [Pa]. */
+    std::array<double, 3> normal_stress(const dealii::Point<3> &p,
+                                        unsigned int vertical) const;
+
+    /** Stress xx, yy, xy, zz [Pa] at (@p x, @p y) in the plane. */
+    std::array<double, 4> stress(double x, double y) const
+    {
+      const auto s = normal_stress({ x, y, 0. }, 1);
+      return { { s[0], s[1], 0., s[2] } };
+    }
 
     /** Declares or reads the entries in the subsection of a load. */
     void enter(ParameterEntries &entries);

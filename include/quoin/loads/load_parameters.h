@@ -127,8 +127,12 @@ namespace quoin
     std::array<double, 3> stress_gradient{};
     /** zz at y = 0 [Pa] and its gradient [Pa/m]; none: nu (xx + yy). */
     std::optional<std::array<double, 2>> stress_zz;
-    /** xx, yy, xy [Pa] as functions of the place and, if it is one, zz; empty:
-        the numbers above. */
+    /** In three dimensions, in place of these: xx, yy, zz, xy, xz, yz at z = 0
+        [Pa] and their gradient with z [Pa/m]. */
+    std::optional<std::array<double, 6>> space_stress;
+    std::array<double, 6> space_gradient{};
+    /** xx, yy, xy [Pa] as functions of the place and, if it is one, zz, or the
+        six of three dimensions; empty: the numbers above. */
     std::vector<SpaceTimeFunction> stress_fields;
     /** Stress by depth, instead of all of these. */
     std::optional<InSituStress> in_situ;
@@ -137,6 +141,10 @@ namespace quoin
         the given Poisson's ratio. */
     std::array<double, 4> initial_stress(double x, double y,
                                          double poisson) const;
+
+    /** Initial stress xx, yy, zz, xy, xz, yz [Pa] at @p place in three
+        dimensions. */
+    std::array<double, 6> initial_stress(const dealii::Point<3> &place) const;
 
     /** The name of its type in parameter files. */
     std::string type_text() const;

@@ -84,6 +84,11 @@ namespace quoin
     double mu;     /**< shear modulus [Pa] */
   };
 
+  inline bool operator==(const SpaceStiffness &a, const SpaceStiffness &b)
+  {
+    return a.lambda == b.lambda && a.mu == b.mu;
+  }
+
   inline SpaceStiffness space_stiffness(const LinearElastic &material)
   {
     const double mu = material.young / (2. * (1. + material.poisson));

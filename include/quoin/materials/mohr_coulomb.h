@@ -242,7 +242,7 @@ namespace quoin
              & (yielding::shear_past | yielding::tension_past);
     }
 
-  private:
+  protected:
     using Principal = std::array<double, 3>;
 
     static constexpr std::array<double, 4> no_stress{};
@@ -335,6 +335,7 @@ namespace quoin
                                  const Trial &at) const;
     PrincipalAxes
     strain_of_kirchhoff(const std::array<double, 4> &kirchhoff) const;
+    Principal strain_of_principal(const Principal &kirchhoff) const;
 
     Flow find_flow(const Principal &trial_strain, double jacobian) const;
 
@@ -392,6 +393,9 @@ namespace quoin
 
     /** Bits of namespace yielding of a return to @p region. */
     std::uint8_t yields_now(Region region) const;
+
+    /** Increment of PlasticPoint::plastic_shear by a flow. */
+    static double shear_of(const Principal &flowed);
 
     PlaneAssumption assumption;
     PlaneStiffness stiffness;

@@ -22,6 +22,13 @@ namespace quoin
     double stress[4]{}; /**< last computed stress, tension positive [Pa] */
   };
 
+  /** The same in space: 11, 22, 33, 12, 13, 23. */
+  struct alignas(32) SpacePlasticCell
+  {
+    double inverse_stretch[6]{};
+    double stress[6]{};
+  };
+
   /**
    * Histories of the deformable cells of this rank; empty unless one of them
    * yields. See MohrCoulomb.
@@ -31,12 +38,18 @@ namespace quoin
     static constexpr const char *slice_name = "plastic cells";
 
     AlignedArray<PlasticCell> cells;
+    /** In place of them in three dimensions. */
+    AlignedArray<SpacePlasticCell> space_cells;
     AlignedArray<double> shear;          /**< accumulated plastic shear [-] */
     AlignedArray<std::uint8_t> yielding; /**< bits of namespace yielding */
 
+    template <int dim>
     void resize(const std::size_t n)
     {
-      cells.resize(n);
+      if constexpr (dim == 2)
+        cells.resize(n);
+      else
+        space_cells.resize(n);
       shear.resize(n, 0.);
       yielding.resize(n, 0);
     }
@@ -45,6 +58,7 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.cells(cells);
+      visitor.cells(space_cells);
       visitor.cells(shear);
       visitor.cells(yielding);
     }

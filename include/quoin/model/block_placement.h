@@ -31,18 +31,22 @@ namespace quoin
   std::vector<bool> absent_nodes(const Model<dim> &model,
                                  const State<dim> &state);
 
-  /** Whether a block beside joint segment @p segment is absent. */
-  bool is_at_absent_block(const Model<2> &model, unsigned int segment,
-                          const State<2> &state);
+  /** Whether a block beside face @p joint of the joints is absent. */
+  template <int dim>
+  bool is_at_absent_block(const Model<dim> &model, unsigned int joint,
+                          const State<dim> &state);
 
   /** Leaves @p blocks where they are, without strain and motion. Collective. */
-  void bring_to_rest(const Model<2> &model,
-                     const std::vector<unsigned int> &blocks, State<2> &state);
+  template <int dim>
+  void bring_to_rest(const Model<dim> &model,
+                     const std::vector<unsigned int> &blocks,
+                     State<dim> &state);
 
   /** Puts @p blocks in their reference position, without strain and motion.
       Collective. */
-  void place_blocks(const Model<2> &model,
-                    const std::vector<unsigned int> &blocks, State<2> &state);
+  template <int dim>
+  void place_blocks(const Model<dim> &model,
+                    const std::vector<unsigned int> &blocks, State<dim> &state);
 } // namespace quoin
 
 #endif

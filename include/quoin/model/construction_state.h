@@ -12,9 +12,10 @@
 namespace quoin
 {
   /** Forces of excavated blocks on those that stay, as they are released. */
+  template <int dim>
   struct HeldForces
   {
-    /** x, y at each owned node at the time of excavation [N]. */
+    /** Components at each owned node at the time of excavation [N]. */
     std::vector<double> force;
     double left        = 1.; /**< share left at the start of the stage [-] */
     double left_at_end = 1.; /**< fraction left at the end of the release [-] */
@@ -22,7 +23,7 @@ namespace quoin
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
-      visitor.owned_nodes(force, 2);
+      visitor.owned_nodes(force, dim);
       visitor.same(left, left_at_end);
     }
 
@@ -33,22 +34,27 @@ namespace quoin
     }
   };
 
-  /** Changes of the model by stages; see Construction. In two dimensions. */
+  /** Changes of the model by stages; see Construction. */
+  template <int dim>
   struct ConstructionState
   {
+    /** Components of the stress of a cell. */
+    static constexpr unsigned int n_stresses = dim == 2 ? 4 : 6;
+
     static constexpr const char *slice_name = "construction";
 
     /** Forces of each excavation not fully released. */
-    std::vector<HeldForces> held;
-    /** Stress xx, yy, xy, zz of each deformable cell at zero strain [Pa], after
-        changes of materials and fill; empty: as at the start. */
+    std::vector<HeldForces<dim>> held;
+    /** Stress of each deformable cell at zero strain, components as of
+        cell_stress() [Pa], after changes of materials and fill; empty: as at
+        the start. */
     AlignedArray<double> initial_stress;
 
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
       visitor.each(held);
-      visitor.cells(initial_stress, 4);
+      visitor.cells(initial_stress, n_stresses);
     }
 
     template <typename Archive>

@@ -21,6 +21,7 @@
 #include <quoin/reinforcement/reinforcement.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace quoin
@@ -64,9 +65,8 @@ namespace quoin
    * for what set_properties() changes. Nodes and cells have the local numbers
    * of a NodeMap.
    *
-   * In three dimensions blocks are deformable and linear elastic:
-   * rigid_blocks() and what deals with contacts, stages of construction and
-   * initial stress belong to two dimensions.
+   * In three dimensions blocks are deformable: rigid_blocks() and what deals
+   * with contacts belong to two dimensions.
    */
   template <int dim>
   class Model
@@ -99,14 +99,14 @@ namespace quoin
      * change_properties().
      */
     void set_properties(const ModelProperties &properties,
-                        const ConstructionState &construction);
+                        const ConstructionState<dim> &construction);
     /** Does what set_properties() does and keeps stresses and tractions of @p
      * state. */
     void change_properties(const ModelProperties &properties,
                            State<dim> &state);
     /** Sets the stress at zero strain of the cells of @p groups to zero. */
     void clear_initial_stress(const std::vector<bool> &groups,
-                              ConstructionState &construction);
+                              ConstructionState<dim> &construction);
 
     const NodeMap<dim> &nodes() const
     {
@@ -179,12 +179,22 @@ namespace quoin
 
   private:
     CellStiffness<dim> stiffness_of(const MaterialParameters &material) const;
+    /** Yield laws of @p materials. */
+    std::vector<std::optional<YieldLaw<dim>>>
+    laws_of(const std::vector<MaterialParameters> &materials) const;
+    /** Initial stress by @p load at @p point in a material [Pa]. */
+    CellStress<dim> initial_stress_of(const LoadParameters &load,
+                                      const dealii::Point<dim> &point,
+                                      const LinearElastic &material) const;
+    /** Refuses an initial stress of the other dimension, or out of a plane that
+        is free. */
+    void check_initial_stress(const LoadParameters &load) const;
     void find_materials();
     void find_thickness();
     void find_masses();
     void find_initial_stress();
     AlignedArray<double> packed_initial_stress() const;
-    void pack_blocks(const ConstructionState &construction);
+    void pack_blocks(const ConstructionState<dim> &construction);
     void find_stable_step();
     void make_contacts();
     /** The operators that bound the stable step. */
@@ -205,9 +215,9 @@ namespace quoin
     std::vector<bool> absent_group;
     std::vector<double> node_mass;
     /** Stress of each cell; may be empty. */
-    std::vector<std::array<double, 4>> cell_stress;
+    std::vector<CellStress<dim>> cell_stress;
     /** Stress of joint faces; may be empty. */
-    std::vector<JointFaceStress> face_stress;
+    std::vector<JointFaceStress<dim>> face_stress;
     BlockForces<dim> block_forces;
     RigidBlocks rigid;
     JointsOf<dim> matched_joints;
@@ -215,6 +225,21 @@ namespace quoin
     std::unique_ptr<BlockContacts> block_contacts;
     std::unique_ptr<StableTimeStep<dim>> stable_step;
   };
+
+  template <>
+  CellStress<2>
+  Model<2>::initial_stress_of(const LoadParameters &load,
+                              const dealii::Point<2> &point,
+                              const LinearElastic &material) const;
+  template <>
+  CellStress<3>
+  Model<3>::initial_stress_of(const LoadParameters &load,
+                              const dealii::Point<3> &point,
+                              const LinearElastic &material) const;
+  template <>
+  void Model<2>::check_initial_stress(const LoadParameters &load) const;
+  template <>
+  void Model<3>::check_initial_stress(const LoadParameters &load) const;
 
   template <>
   NodeRatio Model<2>::spring_ratio(const State<2> &state) const;
@@ -227,19 +252,6 @@ namespace quoin
   template <>
   void Model<2>::add_dashpot_bound(std::vector<NodeStiffness<2>> &bound,
                                    std::vector<double> &rigid_bound) const;
-  template <>
-  void Model<2>::find_initial_stress();
-  template <>
-  AlignedArray<double> Model<2>::packed_initial_stress() const;
-  template <>
-  void Model<2>::set_properties(const ModelProperties &properties,
-                                const ConstructionState &construction);
-  template <>
-  void Model<2>::change_properties(const ModelProperties &properties,
-                                   State<2> &state);
-  template <>
-  void Model<2>::clear_initial_stress(const std::vector<bool> &groups,
-                                      ConstructionState &construction);
 } // namespace quoin
 
 #endif

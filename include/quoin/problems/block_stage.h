@@ -186,7 +186,8 @@ namespace quoin
    * by which strengths are divided. Every trial begins with the state at the
    * start of the stage, and so does the next stage.
    */
-  std::unique_ptr<Stage> make_safety_stage(BlockContext<2> &context,
+  template <int dim>
+  std::unique_ptr<Stage> make_safety_stage(BlockContext<dim> &context,
                                            unsigned int index);
 } // namespace quoin
 

@@ -66,8 +66,7 @@ namespace quoin
     std::vector<NamedBlock> named_blocks;
     BoundaryGeometry boundary_geometry;
     std::unique_ptr<Model<dim>> model;
-    /** Construction in two dimensions. */
-    std::unique_ptr<Construction> construction;
+    std::unique_ptr<Construction<dim>> construction;
     /** Water that flows in joints; null: there is none. */
     std::unique_ptr<JointFlow> water;
     std::unique_ptr<Solver<dim>> solver;
@@ -91,9 +90,6 @@ namespace quoin
   };
 
   // Members that exist in two dimensions only.
-  template <>
-  void BlockSystem<2>::set_properties(const ModelProperties &properties,
-                                      const State<2> &state);
   template <>
   std::unique_ptr<FarField>
   BlockSystem<2>::make_far_field(const MeshData<2> &curves);

@@ -127,7 +127,7 @@ namespace quoin
     double joint_value(const Probe &probe, const State<dim> &state) const;
     /** Share of this rank of the force on the upper sides of joints [N]. */
     double joint_force(const Probe &probe, const State<3> &state) const;
-    double yield_value(const Probe &probe, const State<2> &state) const;
+    double yield_value(const Probe &probe, const State<dim> &state) const;
     /** Adds the columns of boundary elements. */
     void add_boundary_values(const State<dim> &state,
                              std::vector<double> &result) const;
@@ -172,9 +172,6 @@ namespace quoin
   // Members that exist in two dimensions only.
   template <>
   double Histories<2>::open_length(const State<2> &state) const;
-  template <>
-  double Histories<2>::yield_value(const Probe &probe,
-                                   const State<2> &state) const;
   template <>
   double Histories<2>::rotation(unsigned int cell, const State<2> &state) const;
   template <>

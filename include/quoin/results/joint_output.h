@@ -55,6 +55,8 @@ namespace quoin
     std::vector<Vector> earlier_displacement;
     std::vector<double> opening; /**< [m] */
     std::vector<Vector> slip;    /**< of the upper by the lower side [m] */
+    /** Slip before the last reset; empty: none [m]. */
+    std::vector<Vector> earlier_slip;
     std::vector<double> normal_traction; /**< [Pa] */
     std::vector<Vector> shear_traction;  /**< on the lower side [Pa] */
     /** Fields of the joint laws, by name: JointField. */

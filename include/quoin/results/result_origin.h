@@ -27,7 +27,8 @@ namespace quoin
 
     /** Displacement of local nodes [m]. */
     AlignedArray<NodeVector<dim>> displacement;
-    AlignedArray<double> slip; /**< slip of joint points [m] */
+    /** Slip of joint points, its dim - 1 components [m]. */
+    AlignedArray<double> slip;
     /** Whether each joint point was intact where a stage began, or has slipped
         or been open since the origin: all that it has been through counts. */
     AlignedArray<std::uint8_t> has_failed;
@@ -36,11 +37,8 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.nodes(displacement);
-      if constexpr (dim == 2) // Those of three dimensions are not reset.
-      {
-        visitor.own(slip, 2, JointHistory::slice_name);
-        visitor.own(has_failed, 2, JointHistory::slice_name);
-      }
+      visitor.own(slip, dim * (dim - 1), JointHistoryOf<dim>::slice_name);
+      visitor.own(has_failed, dim, JointHistoryOf<dim>::slice_name);
     }
 
     template <typename Archive>
@@ -66,13 +64,18 @@ namespace quoin
 
   /** The state of joint point @p p by what it has been through since the
       origin; that of now is no matter of the origin. */
-  JointState state_since_origin(const State<2> &state, unsigned int p);
+  template <int dim>
+  JointState state_since_origin(const State<dim> &state, unsigned int p);
 
-  /** The slip of joint point @p p where the origin was [m]. */
-  inline double slip_at_origin(const State<2> &state, const unsigned int p)
+  /** Component @p d of the slip of joint point @p p where the origin was
+      [m]. */
+  template <int dim>
+  double slip_at_origin(const State<dim> &state, const unsigned int p,
+                        const unsigned int d = 0)
   {
-    const auto *origin = state.find<ResultOrigin<2>>();
-    return origin && !origin->slip.empty() ? origin->slip[p] : 0.;
+    const auto *origin = state.template find<ResultOrigin<dim>>();
+    return origin && !origin->slip.empty() ? origin->slip[(dim - 1) * p + d]
+                                           : 0.;
   }
 } // namespace quoin
 

@@ -30,6 +30,31 @@ def view(text):
     return values
 
 
+class Cut:
+    """A plane across an axis, and the side of it that stays."""
+
+    def __init__(self, text):
+        match = re.fullmatch(r"\s*([xyz])\s*([<>])\s*(\S+)\s*", text)
+        try:
+            self.value = float(match.group(3)) if match else None
+        except ValueError:
+            self.value = None
+        if self.value is None:
+            raise argparse.ArgumentTypeError(
+                "expected what stays, such as 'x<0.5' [m]")
+        self.axis = "xyz".index(match.group(1))
+        self.sign = 1.0 if match.group(2) == "<" else -1.0
+        self.text = f"{match.group(1)} = {self.value:g} m"
+
+
+def camera(text):
+    values = numbers(text)
+    if len(values) != 2:
+        raise argparse.ArgumentTypeError(
+            "expected AZIMUTH,ELEVATION in degrees")
+    return values
+
+
 def positive(kind):
     def convert(text):
         value = kind(text)

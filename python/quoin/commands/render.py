@@ -48,6 +48,13 @@ compression, red is tension, the length is the magnitude, in the scale of the
 bar below. --colour stress fills the blocks with contours of the minor, that is
 most compressive, principal stress. Both are averaged at the nodes of a block.
 
+Blocks in three dimensions are seen from --camera; --cut draws what lies on one
+side of a plane, --explode moves them apart. Their faces at joints have the colours
+of joints where these open or slip.
+
+  scripts/render OUTPUT_DIR --colour displacement --cut 'y<0.4' --camera 30,20
+  scripts/render OUTPUT_DIR/mechanism --explode 0.3
+
 Of a run of boundary elements it draws the field in the domain, the magnitude of
 velocity or, with --colour displacement, of displacement, and the boundary.
 
@@ -62,11 +69,14 @@ import sys
 
 import numpy as np
 
-from quoin.commands.options import Parser, add_picture_options, positive
+from quoin.commands.options import (Cut, Parser, add_picture_options,
+                                    camera, positive)
 from quoin.figures import field_figure
 from quoin.figures.block_figure import Picture, frames_of
 from quoin.figures.page_layout import draw_moment, draw_panel, write_film
 from quoin.moments import Moment, check_times, moments_at, recorded_times
+from quoin.figures.space_figure import (SpaceFrame, SpacePicture,
+                                        is_in_space)
 from quoin.stages import begin, end, time_of, time_or_name, times_or_names
 
 
@@ -115,6 +125,17 @@ def read_options():
     parser.add_argument("--between", type=times_or_names, metavar="START,END",
                         help="of --animate [s], default all")
     add_picture_options(parser)
+    space = parser.add_argument_group("three dimensions")
+    space.add_argument("--camera", type=camera, default=[-60.0, 25.0],
+                       metavar="AZIMUTH,ELEVATION",
+                       help="where it is seen from [deg], from the axis x "
+                            "towards y, and above the level; default -60,25")
+    space.add_argument("--cut", type=Cut, metavar="'x<VALUE'",
+                       help="draw what lies there in the mesh alone [m]; or "
+                            "y or z, < or >")
+    space.add_argument("--explode", type=positive(float), metavar="SHARE",
+                       help="move blocks apart by this share of the distances "
+                            "of their centres")
     parser.add_argument("--title")
     parser.add_argument("--out", metavar="FILE",
                         help="default OUTPUT_DIR/cracks.png, or field.png")
@@ -138,11 +159,17 @@ def draw(options):
         raise ValueError("--since is for blocks")
     moments = moments_from("boundary.pvd" if is_field else "blocks.pvd",
                            options)
+    in_space = not is_field and is_in_space(options.output)
+    if not in_space and (options.cut or options.explode):
+        raise ValueError("--cut and --explode are for blocks in three "
+                         "dimensions")
     frames = ([field_figure.FieldFrame(options.output, *moment)
                for moment in moments] if is_field else
+              [SpaceFrame(options.output, *moment)
+               for moment in moments] if in_space else
               frames_of(options.output, moments, options.since))
-    picture = (field_figure.FieldPicture if is_field
-               else Picture)(options, frames)
+    picture = (field_figure.FieldPicture if is_field else SpacePicture
+               if in_space else Picture)(options, frames)
     if options.animate and options.animate.endswith(".gif"):
         write_film(picture, frames, options.animate)
         return options.animate

@@ -494,3 +494,102 @@ TEST(BlockForces3, InvertedCellsAreFound)
   mesh.displace(Matrix3d::Identity());
   EXPECT_EQ(first_inverted_cell(blocks, mesh.nodes.data()), 5u);
 }
+
+TEST(BlockForces3d, YieldingBlocksAgreeWithSingleCells)
+{
+  for (const bool with_stress : { false, true })
+    for (const unsigned int n_lanes : { 4u, 8u })
+    {
+      TetrahedronBlocks mesh = assorted_blocks();
+      mesh.data.laws.resize(2);
+      mesh.data.laws[0].emplace(stone,
+                                MohrCoulombStrength{ 2e6, 0.6, 0.2, 1e6 });
+      if (with_stress)
+        mesh.add_initial_stress(1e6);
+      BlockForcesOptions options;
+      options.n_lanes = n_lanes;
+      BlockForces<3> blocks;
+      blocks.prepare(mesh.data, options);
+      PlasticHistory a = initial_history(blocks), b = a;
+      for (unsigned int step = 0; step < 4; ++step)
+      {
+        mesh.displace(rotation(0.5 * step, { 1., 2., -1. }));
+        mesh.disturb(1e-5 * (1 + step));
+        Forces3 force_a = mesh.zero(), force_b = force_a;
+        double lost_a = 0., lost_b = 0.;
+        for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
+        {
+          lost_a
+              += blocks.add_forces(tile, mesh.nodes.data(), a, force_a.data());
+          lost_b += add_forces_by_cell(blocks, tile, mesh.nodes.data(), b,
+                                       force_b.data());
+        }
+        EXPECT_GT(lost_b, 0.);
+        EXPECT_NEAR(lost_a, lost_b, 1e-9 * lost_b);
+        EXPECT_LT(largest_difference(force_a, force_b),
+                  1e-9 * largest(force_b));
+        unsigned int n_yielded = 0;
+        for (std::size_t k = 0; k < mesh.data.cells.size(); ++k)
+        {
+          EXPECT_EQ(a.yielding[k], b.yielding[k]);
+          EXPECT_NEAR(a.shear[k], b.shear[k], 1e-12);
+          n_yielded += (a.yielding[k] & 3) != 0;
+          EXPECT_TRUE(mesh.data.law_of(k) || a.yielding[k] == 0);
+        }
+        EXPECT_GT(n_yielded, 100u);
+        // Forces of blocks add up to nothing.
+        Vector3d sum = Vector3d::Zero();
+        for (const NodeVector<3> &f : force_a)
+          sum += vector(f.v);
+        EXPECT_LT(sum.norm(), 1e-9 * largest(force_a));
+      }
+    }
+}
+
+TEST(BlockForces3d, ForcesOfYieldedCellsAreThoseOfTheirEnergy)
+{
+  // Within the elastic domain after flow.
+  TetrahedronBlocks mesh;
+  mesh.add_box({ 2, 2, 2 }, { 1., 0.9, 1.1 }, { 0., 0., 0. }, 0.2);
+  mesh.data.stiffness = { space_stiffness(stone) };
+  mesh.data.laws.resize(1);
+  mesh.data.laws[0].emplace(stone, MohrCoulombStrength{ 2e6, 0.6, 0.2 });
+  mesh.add_initial_stress(5e5);
+  BlockForces<3> blocks;
+  blocks.prepare(mesh.data);
+  PlasticHistory history = initial_history(blocks);
+  mesh.disturb(3e-4);
+  EXPECT_GT(blocks.update(mesh.nodes.data(), history), 0.);
+  // Back by a part of the elastic strain.
+  for (NodeRecord<3> &node : mesh.nodes)
+    for (double &u : node.u)
+      u *= 0.99;
+  PlasticHistory same = history;
+  Forces3 force       = mesh.zero();
+  for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
+    blocks.add_forces(tile, mesh.nodes.data(), same, force.data());
+  unsigned int n_checked = 0;
+  for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      // Of nodes whose cells are all elastic here.
+      bool is_elastic = true;
+      for (unsigned int k = 0; k < mesh.data.cells.size(); ++k)
+        for (const unsigned int node : mesh.data.cells[k])
+          is_elastic = is_elastic && (node != i || (same.yielding[k] & 3) == 0);
+      if (!is_elastic)
+        continue;
+      ++n_checked;
+      const double u = mesh.nodes[i].u[d], h = 1e-8;
+      double energy[2];
+      for (unsigned int side = 0; side < 2; ++side)
+      {
+        mesh.nodes[i].u[d] = u + (side == 0 ? -h : h);
+        energy[side]       = strain_energy(blocks, mesh.nodes.data(), history);
+      }
+      mesh.nodes[i].u[d] = u;
+      EXPECT_NEAR(force[i].v[d], -(energy[1] - energy[0]) / (2. * h),
+                  1e-5 * largest(force));
+    }
+  EXPECT_GT(n_checked, 10u);
+}

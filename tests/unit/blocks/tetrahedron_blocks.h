@@ -176,7 +176,7 @@ namespace quoin::test
       PlasticHistory none;
       for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
         if (by_cell)
-          add_forces_by_cell(blocks, tile, nodes.data(), force.data());
+          add_forces_by_cell(blocks, tile, nodes.data(), none, force.data());
         else
           blocks.add_forces(tile, nodes.data(), none, force.data());
       return force;

@@ -141,9 +141,9 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
       }
     }
     construction.begin_stage(1, run.solver, run.state);
-    ASSERT_EQ(run.state.get<ConstructionState>().held.size(), 1U);
-    EXPECT_DOUBLE_EQ(run.state.get<ConstructionState>().held[0].left, 0.75);
-    EXPECT_EQ(run.state.get<ConstructionState>().held[0].left_at_end, 0.);
+    ASSERT_EQ(run.state.get<ConstructionState<2>>().held.size(), 1U);
+    EXPECT_DOUBLE_EQ(run.state.get<ConstructionState<2>>().held[0].left, 0.75);
+    EXPECT_EQ(run.state.get<ConstructionState<2>>().held[0].left_at_end, 0.);
   }
 }
 

@@ -30,11 +30,11 @@ namespace
 TEST(InSituStress, SurfaceIsLevelBeyondItsEnds)
 {
   const InSituStress ground = slope();
-  EXPECT_EQ(ground.surface_height(-5.), 2.);
-  EXPECT_EQ(ground.surface_height(10.), 2.);
-  EXPECT_DOUBLE_EQ(ground.surface_height(12.), 3.);
-  EXPECT_EQ(ground.surface_height(18.), 6.);
-  EXPECT_EQ(ground.surface_height(40.), 6.);
+  EXPECT_EQ(ground.surface_height({ -5., 0., 0. }), 2.);
+  EXPECT_EQ(ground.surface_height({ 10., 0., 0. }), 2.);
+  EXPECT_DOUBLE_EQ(ground.surface_height({ 12., 0., 0. }), 3.);
+  EXPECT_EQ(ground.surface_height({ 18., 0., 0. }), 6.);
+  EXPECT_EQ(ground.surface_height({ 40., 0., 0. }), 6.);
 }
 
 TEST(InSituStress, IsTheWeightAbove)
@@ -58,14 +58,14 @@ TEST(InSituStress, FollowsFunctionsOfThePlace)
 {
   InSituStress ground = slope();
   ground.surface_function
-      = [](const double x, double) { return x < 14. ? 2. : 6.; };
-  ground.pressure = [](const double x, double) { return 100. * x; };
+      = [](const dealii::Point<3> &p) { return p[0] < 14. ? 2. : 6.; };
+  ground.pressure = [](const dealii::Point<3> &p) { return 100. * p[0]; };
   ground.horizontal_ratio
-      = [](double, const double y) { return 0.5 - 0.1 * y; };
+      = [](const dealii::Point<3> &p) { return 0.5 - 0.1 * p[1]; };
   ground.horizontal_stress
-      = [](const double x, const double y) { return x * y; };
-  EXPECT_EQ(ground.surface_height(13.), 2.);
-  EXPECT_EQ(ground.surface_height(15.), 6.);
+      = [](const dealii::Point<3> &p) { return p[0] * p[1]; };
+  EXPECT_EQ(ground.surface_height({ 13., 0., 0. }), 2.);
+  EXPECT_EQ(ground.surface_height({ 15., 0., 0. }), 6.);
   // 3 m of the upper layer and 3 m of the lower one, left of the step
   const double vertical = -(1.2e3 + 3. * 20e3 + 3. * 25e3);
   const auto stress     = ground.stress(12., -4.);

@@ -91,7 +91,7 @@ TEST(ContactBounds, FollowTheMaterialsOfAStage)
   const Stack soft(1e9, 1e9, 1e9, 1e9);
   ModelProperties properties      = stack.model.properties();
   properties.material_of_group[1] = properties.material_of_group[0];
-  stack.model.set_properties(properties, ConstructionState());
+  stack.model.set_properties(properties, ConstructionState<2>());
   EXPECT_DOUBLE_EQ(stack.bound("upper"), soft.bound("upper"));
 }
 

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// BlockForces<3> cell by cell.
+
+#include <quoin/blocks/cell_states.h>
+
+#include "cell_strain.h"
+
+namespace quoin
+{
+  namespace
+  {
+    /** Strain of the elastic part of a deformation, (I + H) (I + Q). */
+    SpaceStrain elastic_strain(const double (&H)[3][3], const double (&Q)[6])
+    {
+      double A[3][3];
+      for (unsigned int r = 0; r < 3; ++r)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          A[r][c] = H[r][c] + Q[symmetric_index[r][c]];
+          for (unsigned int i = 0; i < 3; ++i)
+            A[r][c] += H[r][i] * Q[symmetric_index[i][c]];
+        }
+      return SpaceStrain(A);
+    }
+
+    SpaceStrain elastic_strain(const BlockForcesData<3> &data,
+                               const NodeRecord<3> *nodes,
+                               const PlasticHistory &history,
+                               const std::size_t cell)
+    {
+      return elastic_strain(cell_motion(data, nodes, cell).H,
+                            history.space_cells[cell].inverse_stretch);
+    }
+
+    double contraction(const SpaceTensor &a, const SpaceTensor &b)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < 6; ++i)
+        sum += (i < 3 ? 1. : 2.) * a[i] * b[i];
+      return sum;
+    }
+  } // namespace
+
+  SpaceTensor elastic_stress(const SpaceStiffness &stiffness,
+                             const SpaceTensor &e)
+  {
+    SpaceTensor s;
+    for (unsigned int i = 0; i < 6; ++i)
+      s[i] = 2. * stiffness.mu * e[i]
+             + (i < 3 ? stiffness.lambda * (e[0] + e[1] + e[2]) : 0.);
+    return s;
+  }
+
+  CellMotion cell_motion(const BlockForcesData<3> &data,
+                         const NodeRecord<3> *nodes, const std::size_t cell)
+  {
+    const auto &n = data.cells[cell];
+    double e[3][3], d[3][3];
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        e[k][i] = nodes[n[k + 1]].X[i] - nodes[n[0]].X[i];
+        d[k][i] = nodes[n[k + 1]].u[i] - nodes[n[0]].u[i];
+      }
+    CellMotion motion;
+    motion.geometry.set_edges(e);
+    motion.geometry.gradient(d, motion.H);
+    return motion;
+  }
+
+  void add_cell_forces(const BlockForcesData<3> &data, const std::size_t cell,
+                       const Tetrahedron<OneLane> &geometry,
+                       const double (&R)[3][3], const double (&T)[3][3],
+                       NodeVector<3> *force)
+  {
+    double P[3][3], f[3][3];
+    for (unsigned int r = 0; r < 3; ++r)
+      for (unsigned int c = 0; c < 3; ++c)
+        P[r][c]
+            = -(R[r][0] * T[0][c] + R[r][1] * T[1][c] + R[r][2] * T[2][c]) / 6.;
+    geometry.nodal_forces(P, f);
+    const auto &n = data.cells[cell];
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        force[n[k + 1]].v[i] += f[k][i];
+        force[n[0]].v[i] -= f[k][i];
+      }
+  }
+
+  double add_plastic_forces(const BlockForcesData<3> &data,
+                            const std::size_t cell, const NodeRecord<3> *nodes,
+                            PlasticHistory &history, NodeVector<3> *force)
+  {
+    const CellMotion motion       = cell_motion(data, nodes, cell);
+    const SpacePlasticCell before = history.space_cells[cell];
+    const SpaceStrain strain = elastic_strain(motion.H, before.inverse_stretch);
+    SpacePlasticPoint point  = space_plastic_point(history, cell);
+    const SpacePlasticStep step = data.law_of(cell)->update(
+        point, strain, data.initial_stress_of(cell));
+    set_plastic_point(point, cell, history);
+    // P = P_e (I + Q): on gradients on which (I + Q) has acted.
+    double T[3][3];
+    strain.turning_stress(step.stress, T);
+    Tetrahedron<OneLane> flowed = motion.geometry;
+    flowed.flow(before.inverse_stretch);
+    add_cell_forces(data, cell, flowed, strain.R, T, force);
+    return motion.geometry.det / 6. * step.dissipated;
+  }
+
+  PlasticHistory initial_history(const BlockForces<3> &blocks)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    PlasticHistory history;
+    if (!data.is_plastic())
+      return history;
+    history.resize<3>(data.cells.size());
+    for (unsigned int k = 0; k < data.cells.size(); ++k)
+      forget_history(blocks, k, history);
+    return history;
+  }
+
+  void forget_history(const BlockForces<3> &blocks, const unsigned int cell,
+                      PlasticHistory &history)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    if (!data.is_plastic())
+      return;
+    SpacePlasticPoint point;
+    if (data.law_of(cell))
+      point.stress = data.initial_stress_of(cell);
+    set_plastic_point(point, cell, history);
+  }
+
+  SpacePlasticPoint cell_history(const BlockForces<3> &blocks,
+                                 const NodeRecord<3> *nodes,
+                                 const PlasticHistory &history,
+                                 const unsigned int cell)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    SpacePlasticPoint point        = space_plastic_point(history, cell);
+    data.law_of(cell)->update(point, elastic_strain(data, nodes, history, cell),
+                              data.initial_stress_of(cell));
+    return point;
+  }
+
+  double BlockForces<3>::update(const NodeRecord<3> *nodes,
+                                PlasticHistory &history) const
+  {
+    double dissipated = 0.;
+    for (const unsigned int k : plastic_cells)
+    {
+      const SpaceStrain strain = elastic_strain(data, nodes, history, k);
+      SpacePlasticPoint point  = space_plastic_point(history, k);
+      const double lost        = data.law_of(k)
+                              ->update(point, strain, data.initial_stress_of(k))
+                              .dissipated;
+      set_plastic_point(point, k, history);
+      dissipated += cell_motion(data, nodes, k).geometry.det / 6. * lost;
+    }
+    return dissipated;
+  }
+
+  double add_forces_by_cell(const BlockForces<3> &blocks,
+                            const unsigned int tile, const NodeRecord<3> *nodes,
+                            PlasticHistory &history, NodeVector<3> *force)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    const NodeRange cells          = blocks.tile_cells(tile);
+    double dissipated              = 0.;
+    for (std::size_t k = cells.begin; k < cells.end; ++k)
+    {
+      if (data.law_of(k))
+      {
+        dissipated += add_plastic_forces(data, k, nodes, history, force);
+        continue;
+      }
+      const CellMotion motion = cell_motion(data, nodes, k);
+      const SpaceStrain strain(motion.H);
+      double T[3][3];
+      strain.turning_stress(data.initial_stress_of(k), T);
+      const SpaceTensor s = elastic_stress(data.stiffness_of(k), strain.e);
+      for (unsigned int r = 0; r < 3; ++r)
+        for (unsigned int c = 0; c < 3; ++c)
+          T[r][c] += s[symmetric_index[r][c]];
+      add_cell_forces(data, k, motion.geometry, strain.R, T, force);
+    }
+    return dissipated;
+  }
+
+  double strain_energy(const BlockForces<3> &blocks, const NodeRecord<3> *nodes,
+                       const PlasticHistory &history)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    double energy                  = 0.;
+    for (std::size_t k = 0; k < data.cells.size(); ++k)
+    {
+      const CellMotion motion        = cell_motion(data, nodes, k);
+      const SpaceTensor s0           = data.initial_stress_of(k);
+      const SpaceMohrCoulomb *yields = data.law_of(k);
+      double density;
+      if (yields && history.yielding[k] != 0)
+      {
+        const SpaceStrain strain
+            = elastic_strain(motion.H, history.space_cells[k].inverse_stretch);
+        density = yields->stored_energy(yields->trial_stress(
+                      space_plastic_point(history, k), strain.e))
+                  - yields->stored_energy(s0);
+      }
+      else
+      {
+        const SpaceStrain strain(motion.H);
+        const SpaceTensor s = elastic_stress(data.stiffness_of(k), strain.e);
+        density = 0.5 * contraction(s, strain.e) + contraction(s0, strain.e);
+      }
+      energy += motion.geometry.det / 6. * density;
+    }
+    return energy;
+  }
+
+  SpaceTensor cell_stress(const BlockForces<3> &blocks,
+                          const NodeRecord<3> *nodes,
+                          const PlasticHistory &history, const std::size_t cell,
+                          SpaceTensor *strain_out)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    const CellMotion motion        = cell_motion(data, nodes, cell);
+    const SpaceStrain strain(motion.H);
+    if (strain_out)
+      *strain_out = strain.to_global(strain.e);
+    const SpaceTensor s0 = data.initial_stress_of(cell);
+    if (const SpaceMohrCoulomb *yields = data.law_of(cell))
+    {
+      const SpacePlasticPoint point
+          = cell_history(blocks, nodes, history, cell);
+      double Q[6];
+      std::copy(point.inverse_stretch.begin(), point.inverse_stretch.end(), Q);
+      const SpaceStrain elastic = elastic_strain(motion.H, Q);
+      return elastic.to_global(yields->cauchy_stress(point, elastic, s0));
+    }
+    SpaceTensor s = elastic_stress(data.stiffness_of(cell), strain.e);
+    for (unsigned int i = 0; i < 6; ++i)
+      s[i] += s0[i];
+    return strain.to_global(s);
+  }
+
+  void cell_stresses(const BlockForces<3> &blocks, const NodeRecord<3> *nodes,
+                     const PlasticHistory &history,
+                     std::vector<SpaceTensor> &stress,
+                     std::vector<SpaceTensor> &strain)
+  {
+    const std::size_t n_cells = blocks.cell_data().cells.size();
+    stress.resize(n_cells);
+    strain.resize(n_cells);
+    for (std::size_t k = 0; k < n_cells; ++k)
+      stress[k] = cell_stress(blocks, nodes, history, k, &strain[k]);
+  }
+
+  SpaceTensor stress_of_strain(const BlockForces<3> &blocks,
+                               const NodeRecord<3> *nodes,
+                               const std::size_t cell,
+                               const SpaceStiffness &stiffness)
+  {
+    return elastic_stress(
+        stiffness,
+        SpaceStrain(cell_motion(blocks.cell_data(), nodes, cell).H).e);
+  }
+
+  SpaceTensor turning_stress(const BlockForces<3> &blocks,
+                             const NodeRecord<3> *nodes,
+                             const PlasticHistory &history,
+                             const std::size_t cell)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    const CellMotion motion        = cell_motion(data, nodes, cell);
+    const auto &Q                  = history.space_cells[cell].inverse_stretch;
+    const SpaceStrain whole(motion.H), strain = elastic_strain(motion.H, Q);
+    double T[3][3], PQ[3][3];
+    strain.turning_stress(
+        data.law_of(cell)->trial_stress(space_plastic_point(history, cell),
+                                        strain.e, data.initial_stress_of(cell)),
+        T);
+    // R^T R_e T (I + Q), R that of the whole deformation.
+    for (unsigned int r = 0; r < 3; ++r)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        PQ[r][c] = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int k = 0; k < 3; ++k)
+            PQ[r][c] += strain.R[r][i] * T[i][k]
+                        * (Q[symmetric_index[k][c]] + (k == c ? 1. : 0.));
+      }
+    SpaceTensor result{};
+    for (unsigned int r = 0; r < 3; ++r)
+      for (unsigned int c = r; c < 3; ++c)
+        for (unsigned int i = 0; i < 3; ++i)
+          result[symmetric_index[r][c]]
+              += 0.5 * (whole.R[i][r] * PQ[i][c] + whole.R[i][c] * PQ[i][r]);
+    return result;
+  }
+
+  void take_over_stress(const BlockForces<3> &blocks,
+                        const NodeRecord<3> *nodes, const std::size_t cell,
+                        const SpaceMohrCoulomb &law, PlasticHistory &history)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    SpacePlasticPoint point        = space_plastic_point(history, cell);
+    law.take_over(point, elastic_strain(data, nodes, history, cell),
+                  *data.law_of(cell));
+    set_plastic_point(point, cell, history);
+  }
+
+  unsigned int first_inverted_cell(const BlockForces<3> &blocks,
+                                   const NodeRecord<3> *nodes)
+  {
+    const BlockForcesData<3> &data = blocks.cell_data();
+    unsigned int k                 = 0;
+    for (; k < data.cells.size(); ++k)
+    {
+      const CellMotion motion = cell_motion(data, nodes, k);
+      if (!(motion.geometry.det > 0.) || !(SpaceStrain(motion.H).polar.j > -1.))
+        break;
+    }
+    return k;
+  }
+} // namespace quoin

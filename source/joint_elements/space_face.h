@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_source_joint_elements_space_face_h
+#define quoin_source_joint_elements_space_face_h
+
+#include <quoin/joint_elements/joint_points.h>
+#include <quoin/joint_elements/space_joints.h>
+
+// Gaps and forces of single faces of SpaceJoints.
+
+namespace quoin
+{
+  namespace
+  {
+    using Vector = dealii::Tensor<1, 3>;
+
+    /** Calls @p use with the law of its own type, which works in space. */
+    template <typename Use>
+    void visit_law(const Use &use, const JointLaw &law)
+    {
+      std::visit(
+          [&](const auto &own)
+          {
+            if constexpr (std::decay_t<decltype(own)>::has_slip_vector)
+              use(own);
+          },
+          law);
+    }
+
+    /** From the position of @p a to that of @p b. Differences of X and of u
+        are taken apart, so that small displacements keep their digits. */
+    Vector between(const NodeRecord<3> &a, const NodeRecord<3> &b)
+    {
+      Vector result;
+      for (unsigned int d = 0; d < 3; ++d)
+        result[d] = (b.X[d] - a.X[d]) + (b.u[d] - a.u[d]);
+      return result;
+    }
+
+    Vector gap_vector(const SpaceJointFace &face, const NodeRecord<3> *nodes,
+                      const unsigned int k)
+    {
+      return between(nodes[face.lower[k]], nodes[face.upper[k]]);
+    }
+
+    SpaceJointGap components(const SpaceJointFrame &frame, const Vector &gap)
+    {
+      return { { gap * frame.n, gap * frame.s, gap * frame.t } };
+    }
+
+    Vector traction_vector(const SpaceJointFrame &frame, const double normal,
+                           const Slip<3> &shear)
+    {
+      return normal * frame.n + shear[0] * frame.s + shear[1] * frame.t;
+    }
+
+    void add(const Vector &f, NodeVector<3> &node)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        node.v[d] += f[d];
+    }
+
+    /**
+     * Subtracts from the nodes of both sides what the rotation of the frame
+     * adds to the derivative of the energy: @p couple [N m], the derivative by
+     * the rotation, times that of the rotation by the nodes, which is that of
+     * rotation_rate().
+     */
+    void subtract_couple(const SpaceJointFace &face,
+                         const SpaceJointFrame &frame, const Vector &couple,
+                         NodeVector<3> *force)
+    {
+      const double lift = couple * frame.s / frame.above;
+      const Vector f2   = -0.5 * lift * frame.n;
+      const Vector f1   = 0.5 / frame.length
+                        * ((couple * frame.t + lift * frame.along) * frame.n
+                           - couple * frame.n * frame.t);
+      for (const auto &side : { face.lower, face.upper })
+      {
+        add(-f1 - f2, force[side[0]]);
+        add(f1, force[side[1]]);
+        add(f2, force[side[2]]);
+      }
+    }
+
+    /** Adds the forces of @p face whose points k have the force f(k, gap), on
+        the lower side, and the couple of the frame. */
+    template <typename Force>
+    void add_face_forces(const SpaceJointFace &face,
+                         const SpaceJointFrame &frame,
+                         const NodeRecord<3> *nodes, const Force &f,
+                         NodeVector<3> *force)
+    {
+      Vector couple;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const Vector gap = gap_vector(face, nodes, k);
+        const Vector own = f(k, gap);
+        couple += cross_product_3d(own, gap);
+        add(own, force[face.lower[k]]);
+        add(-own, force[face.upper[k]]);
+      }
+      subtract_couple(face, frame, couple, force);
+    }
+  } // namespace
+} // namespace quoin
+
+#endif

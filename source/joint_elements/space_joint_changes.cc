@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// joint_changes.h in three dimensions.
+
+#include <quoin/joint_elements/joint_changes.h>
+
+#include <deal.II/base/mpi.h>
+
+#include "space_face.h"
+
+namespace quoin
+{
+  namespace
+  {
+    /** Slip along the tangents of a face. */
+    Slip<3> slip_of(const SpaceJointGap &gap)
+    {
+      Slip<3> slip;
+      slip[0] = gap[1];
+      slip[1] = gap[2];
+      return slip;
+    }
+  } // namespace
+
+  void initialise_joints(const SpaceJoints &joints,
+                         const std::vector<JointFaceStress<3>> &face_stress,
+                         State<3> &state)
+  {
+    SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    for (unsigned int i = 0; i < joints.faces().size(); ++i)
+    {
+      const SpaceJointFace &face  = joints.faces()[i];
+      const SpaceJointFrame frame = joint_frame(face, state.nodes.data());
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const auto &[xx, yy, zz, xy, xz, yz] = face_stress[face.face][k];
+        const Vector traction(
+            { xx * frame.n[0] + xy * frame.n[1] + xz * frame.n[2],
+              xy * frame.n[0] + yy * frame.n[1] + yz * frame.n[2],
+              xz * frame.n[0] + yz * frame.n[1] + zz * frame.n[2] });
+        const SpaceJointGap parts = components(frame, traction);
+        visit_law(
+            [&](const auto &law)
+            {
+              auto point = read_point(law, history, 3 * i + k);
+              law.initialise(point, parts[0], slip_of(parts));
+              write_point(point, history, 3 * i + k);
+            },
+            joints.laws()[face.set]);
+      }
+    }
+  }
+
+  double n_beyond_strength(const SpaceJoints &joints,
+                           const SpaceJointHistory &history,
+                           const MPI_Comm communicator)
+  {
+    double n = 0.;
+    for (unsigned int p = 0; p < joints.n_points(); ++p)
+      visit_law(
+          [&](const auto &law)
+          {
+            if (!law.holds(read_point(law, history, p)))
+              n += joints.faces()[p / 3].share;
+          },
+          joints.laws()[joints.faces()[p / 3].set]);
+    return dealii::Utilities::MPI::sum(n, communicator);
+  }
+
+  void add_traction_forces(const SpaceJoints &joints, const unsigned int i,
+                           const State<3> &state, NodeVector<3> *force)
+  {
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    const SpaceJointFace &face       = joints.faces()[i];
+    const SpaceJointFrame frame      = joint_frame(face, state.nodes.data());
+    add_face_forces(
+        face, frame, state.nodes.data(),
+        [&](const unsigned int k, const Vector &)
+        {
+          const unsigned int p = 3 * i + k;
+          Slip<3> shear;
+          shear[0] = history.shear_traction[2 * p];
+          shear[1] = history.shear_traction[2 * p + 1];
+          return face.area
+                 * traction_vector(frame, history.normal_traction[p], shear);
+        },
+        force);
+  }
+
+  void detach_joint(const unsigned int i, SpaceJointHistory &history)
+  {
+    history.detached[i] = 1;
+    for (unsigned int p = 3 * i; p < 3 * i + 3; ++p)
+    {
+      history.normal_traction[p]        = 0.;
+      history.shear_traction[2 * p]     = 0.;
+      history.shear_traction[2 * p + 1] = 0.;
+      history.state[p]                  = JointState::open;
+    }
+  }
+
+  void begin_joint_anew(const SpaceJoints &joints, const unsigned int i,
+                        State<3> &state)
+  {
+    const SpaceJointFace &face = joints.faces()[i];
+    SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    history.detached[i]        = 0;
+    const auto gaps            = joint_gaps(face, state.nodes.data());
+    visit_law(
+        [&](const auto &law)
+        {
+          for (unsigned int k = 0; k < 3; ++k)
+          {
+            SpacePointOf<decltype(law)> point;
+            point.plastic_opening = gaps[k][0];
+            point.plastic_slip    = slip_of(gaps[k]);
+            write_point(point, history, 3 * i + k);
+          }
+        },
+        joints.laws()[face.set]);
+  }
+
+  void keep_joint_tractions(const SpaceJoints &joints, State<3> &state)
+  {
+    SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    for (unsigned int i = 0; i < joints.faces().size(); ++i)
+    {
+      if (history.detached[i])
+        continue;
+      const auto gaps = joint_gaps(joints.faces()[i], state.nodes.data());
+      visit_law(
+          [&](const auto &law)
+          {
+            for (unsigned int k = 0; k < 3; ++k)
+            {
+              auto point = read_point(law, history, 3 * i + k);
+              // What is open keeps what its opening counts from, unless it may
+              // bear tension.
+              if (point.state == JointState::open
+                  && !std::decay_t<decltype(law)>::bridges)
+                continue;
+              auto at_rest = point;
+              law.initialise(at_rest, point.normal_traction,
+                             point.shear_traction);
+              point.normal_traction = at_rest.normal_traction;
+              point.shear_traction  = at_rest.shear_traction;
+              point.plastic_opening = at_rest.plastic_opening + gaps[k][0];
+              point.plastic_slip    = at_rest.plastic_slip + slip_of(gaps[k]);
+              write_point(point, history, 3 * i + k);
+            }
+          },
+          joints.laws()[joints.faces()[i].set]);
+    }
+  }
+} // namespace quoin
