@@ -38,10 +38,7 @@ namespace quoin
   double FlowNetwork::flow(const FlowChannel &channel,
                            const std::vector<double> &pressure) const
   {
-    const auto [i, j] = channel.nodes;
-    return conductance(channel)
-           * (pressure[i] - pressure[j]
-              + fluid.unit_weight * (elevation[i] - elevation[j]));
+    return conductance(channel) * drop(channel, pressure);
   }
 
   std::vector<double> FlowNetwork::volumes() const
@@ -86,11 +83,9 @@ namespace quoin
     Pressures sum(n_nodes(), 0.);
     for (const FlowChannel &channel : all_channels)
     {
-      const auto [i, j]        = channel.nodes;
-      const long double volume = (long double)(dt * conductance(channel))
-                                 * (pressure[i] - pressure[j]
-                                    + (long double)(fluid.unit_weight)
-                                          * (elevation[i] - elevation[j]));
+      const auto [i, j] = channel.nodes;
+      const long double volume
+          = (long double)(dt * conductance(channel)) * drop(channel, pressure);
       sum[i] += volume;
       sum[j] -= volume;
     }
@@ -293,9 +288,7 @@ namespace quoin
       {
         const auto [i, j] = channel.nodes;
         const double drive
-            = dt * conductance(channel)
-              * (at.pressure[i] - at.pressure[j]
-                 + fluid.unit_weight * (elevation[i] - elevation[j]));
+            = dt * conductance(channel) * drop(channel, at.pressure);
         const double passes
             = (drive > 0. ? at.factor[i] : at.factor[j]) * drive;
         at.lacking[i] -= passes;
@@ -341,11 +334,8 @@ namespace quoin
         const double k = dt * conductance(channel);
         if (k == 0.)
           continue;
-        const auto [i, j] = channel.nodes;
-        const double drive
-            = k
-              * (at.pressure[i] - at.pressure[j]
-                 + fluid.unit_weight * (elevation[i] - elevation[j]));
+        const auto [i, j]       = channel.nodes;
+        const double drive      = k * drop(channel, at.pressure);
         const unsigned int from = drive > 0. ? i : j, to = drive > 0. ? j : i;
         const double size = std::abs(drive);
         // By the pressure of either end, and by the filling of that above.

@@ -136,6 +136,18 @@ namespace quoin
         differences of its pressures are below the rounding of a double. */
     using Pressures = std::vector<long double>;
 
+    /** By how much p + gamma y is larger at the first node of @p channel [Pa].
+     */
+    template <typename Vector>
+    typename Vector::value_type drop(const FlowChannel &channel,
+                                     const Vector &pressure) const
+    {
+      const auto [i, j] = channel.nodes;
+      return pressure[i] - pressure[j] +
+             typename Vector::value_type(fluid.unit_weight)
+                 * (elevation[i] - elevation[j]);
+    }
+
     /** Solves storage p + dt (flow out) = known + dt source at nodes whose
         pressure is not given. */
     Pressures solve(const FlowConditions &conditions, double dt,

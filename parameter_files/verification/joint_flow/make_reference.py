@@ -148,6 +148,20 @@ def cracked_dam(height=50.0, width=40.0, concrete=24e3, water=1e4, kn=1e9,
             head * (width - place) / rest)
 
 
+def embankment(above=8.4, below=2.0, weight=1e4, aperture=2e-4):
+    """Discharge of joints at y = 1 ... 9 m over 5 m: horizontal flow is that of
+    differences of pressure, whose sum over the height falls linearly from one
+    side to the other, wherever the free surface lies (Dupuit, Charny)."""
+    pressures = weight * sum(max(0, above - y) - max(0, below - y)
+                             for y in range(1, 10))
+    return aperture**3 / (12 * MU) * pressures / 5
+
+
+def front(t, p0=1e5, aperture=1e-4):
+    """Where the front of water in a dry joint is (Washburn)."""
+    return math.sqrt(2 * aperture**2 / (12 * MU) * p0 * t)
+
+
 def main():
     pressure, flow, rest = network()
     head = ("time [s],p11 [Pa],p21 [Pa],p12 [Pa],p22 [Pa],bottom [Pa],"
@@ -164,6 +178,13 @@ def main():
           [[2.0, 0.0, 0.0, 0.0, 0.0, pressure[1, 0], 0.0, 0.0] + rest[2:]])
     write("excavation_flow.csv", ",".join(n + " [m^3/s]" for n in names),
           [[flow[n] for n in names]])
+    q = embankment()
+    write("free_surface.csv",
+          "time [s],in [m^3/s],out [m^3/s],foot [-],top [-]",
+          [(1.0, q, q, 1.0, 0.0)])
+    times = [0.2 * k for k in range(30, 101)]
+    write("front.csv", "time [s],quarter [Pa]",
+          [(t, 1e5 * (1 - 0.5 / front(t))) for t in times])
     # full pressure at rest; the cubic law over 2 m once the wall is free
     q = 2e-4**3 / (12 * MU) * 1e4 * 10 / 2
     write("drift.csv", "time [s],drift [m^3/s],lake [m^3/s],middle [Pa]",
