@@ -445,7 +445,7 @@ TEST(MatchedJoints, InitialStressBecomesTraction)
   for (const double angle : { 0., 30. * degree, -60. * degree })
   {
     Stack stack(2, angle);
-    const JointFaceStress uniform
+    const JointFaceStress<2> uniform
         = { { { { xx, yy, xy } }, { { xx, yy, xy } } } };
     initialise_joints(stack.joints, { uniform, uniform }, stack.state);
     // The normal of a joint turned by the angle, and the tangent.
@@ -476,7 +476,7 @@ TEST(MatchedJoints, InitialStressOfRockJoints)
   for (const JointSetParameters &set : { rough, yielding })
   {
     Stack stack(2, 0., set);
-    const JointFaceStress uniform
+    const JointFaceStress<2> uniform
         = { { { { xx, yy, xy } }, { { xx, yy, xy } } } };
     initialise_joints(stack.joints, { uniform, uniform }, stack.state);
     stack.find_forces();
@@ -509,8 +509,8 @@ TEST(MatchedJoints, RockJointsAreBeyondTheirStrengthIfTheyCannotHold)
       JointSetParameters set = elastic_joint(kn, ks);
       set.law                = law;
       Stack stack(2, 0., set);
-      const JointFaceStress uniform = { { { { 0., -2e6, ratio * 2e6 } },
-                                          { { 0., -2e6, ratio * 2e6 } } } };
+      const JointFaceStress<2> uniform = { { { { 0., -2e6, ratio * 2e6 } },
+                                             { { 0., -2e6, ratio * 2e6 } } } };
       initialise_joints(stack.joints, { uniform, uniform }, stack.state);
       EXPECT_EQ(n_beyond_strength(stack.joints, stack.state.get<JointHistory>(),
                                   MPI_COMM_SELF),

@@ -54,6 +54,19 @@ TEST(InSituStress, IsTheWeightAbove)
     EXPECT_EQ(component, 0.);
 }
 
+TEST(InSituStress, HasHeightsAlongZInSpace)
+{
+  InSituStress ground = slope();
+  const auto plane    = ground.stress(12., -4.);
+  const auto space    = ground.normal_stress({ 12., 7., -4. }, 2);
+  EXPECT_EQ(space[0], plane[0]);
+  EXPECT_EQ(space[1], plane[1]);
+  EXPECT_EQ(space[2], plane[3]);
+  ground.surface_function = [](const dealii::Point<3> &p) { return p[1] - 1.; };
+  EXPECT_DOUBLE_EQ(ground.normal_stress({ 12., 7., 4. }, 2)[1],
+                   -(3e3 + 2. * 20e3));
+}
+
 TEST(InSituStress, FollowsFunctionsOfThePlace)
 {
   InSituStress ground = slope();
