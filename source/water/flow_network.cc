@@ -18,6 +18,15 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** Share of the flow that joints of the saturation @p s carry. */
+    double carried(const double s)
+    {
+      return s * s * (3. - 2. * s);
+    }
+  } // namespace
+
   FlowNetwork::FlowNetwork(const Fluid &fluid,
                            const std::vector<double> &elevation,
                            const std::vector<FlowChannel> &channels)
@@ -36,9 +45,11 @@ namespace quoin
   }
 
   double FlowNetwork::flow(const FlowChannel &channel,
-                           const std::vector<double> &pressure) const
+                           const FlowSolution &solution) const
   {
-    return conductance(channel) * drop(channel, pressure);
+    const double full = conductance(channel) * drop(channel, solution.pressure);
+    return carried(solution.saturation[channel.nodes[full > 0. ? 0 : 1]])
+           * full;
   }
 
   std::vector<double> FlowNetwork::volumes() const
@@ -271,7 +282,7 @@ namespace quoin
             at.pressure[i] = std::max(unknown[i], 0.);
           const double s = std::min(1., std::max(0., 1. + unknown[i] / scale));
           at.saturation[i] = s;
-          at.factor[i]     = s * s * (3. - 2. * s);
+          at.factor[i]     = carried(s);
           if (unknown[i] < 0. && s > 0.)
             at.slope[i] = 6. * s * (1. - s) / scale;
           at.lacking[i]

@@ -407,7 +407,7 @@ namespace quoin
         now.point_aperture[2 * i + k]   = channel.aperture[k];
         now.point_saturation[2 * i + k] = solution.saturation[channel.nodes[k]];
       }
-      now.flow[i]     = flow_network.flow(channel, now.pressure);
+      now.flow[i]     = flow_network.flow(channel, solution);
       now.velocity[i] = now.flow[i] / channel.thickness
                         / (0.5 * (channel.aperture[0] + channel.aperture[1]));
     }

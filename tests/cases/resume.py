@@ -178,6 +178,10 @@ CASES = {
     "water, implicit": (
         os.path.join(common.VERIFICATION, "joint_flow", "consolidation.prm"),
         ["Output/Checkpoint interval=0.05", "Output/Field interval=0.2"], 1, 2),
+    "free surface": (
+        os.path.join(common.VERIFICATION, "joint_flow", "slab.prm"),
+        ["Water/Free surface=yes", "Stages/flow/Duration=20",
+         "Histories/Interval=0.2", "Output/Checkpoint interval=0.05"], 1, 2),
     # water that moves with a wall; uplift in a crack
     "added mass": (os.path.join(common.VERIFICATION, "added_mass", "wall.prm"),
                    ["Output/Checkpoint interval=0.05"], 1, 2),

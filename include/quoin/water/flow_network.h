@@ -95,9 +95,9 @@ namespace quoin
 
     /** Flow by pressure difference [m^3/(s Pa)]. */
     double conductance(const FlowChannel &channel) const;
-    /** Flow of @p channel from its first to its second node [m^3/s]. */
-    double flow(const FlowChannel &channel,
-                const std::vector<double> &pressure) const;
+    /** Flow of @p channel from its first to its second node [m^3/s] with the
+        pressures and saturations of @p solution. */
+    double flow(const FlowChannel &channel, const FlowSolution &solution) const;
     /** Volume of the channels at each node, weighted as nodal forces of a
         linearly varying pressure are [m^3]. */
     std::vector<double> volumes() const;
