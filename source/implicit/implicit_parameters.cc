@@ -36,7 +36,8 @@ namespace quoin
                        "the stage fails if it does not converge with it [-]");
       entries.within("Force ratio", parameters.force_ratio, 1e-14, 0.1,
                      "Ratio of unbalanced to applied force, each summed over "
-                     "nodes, at which iterations have converged [-]");
+                     "nodes, at which iterations have converged; with "
+                     "transient flow of water at most 1e-8 [-]");
       entries.integer("Wanted iterations", parameters.wanted_iterations, 1,
                       "Number of iterations of a step below which steps grow "
                       "and above which they are reduced [-]");

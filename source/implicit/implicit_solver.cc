@@ -48,6 +48,9 @@ namespace quoin
     constexpr double control_tolerance = 1e-6;
     /** Share of a correction at which the line search gives up. */
     constexpr double least_search_share = 0.1;
+    /** Largest ratio of unbalanced to applied forces with transient flow: the
+        water that flows in a step is a small difference of openings. */
+    constexpr double flow_force_ratio = 1e-8;
     /** Equilibria in a step until uplift and crack belong together. */
     constexpr unsigned int most_cracks = 50;
     /** Least reduction of the unbalanced force by share of a correction. */
@@ -190,12 +193,17 @@ namespace quoin
                                    && configuration.released == target.released;
       // Points of joints that close and open in turn with every iteration must
       // not hold up a trial that asks whether the model keeps moving.
+      const double given
+          = water && water->acts()
+                    && water->parameters().flow == FlowKind::transient
+                ? std::min(parameters.force_ratio, flow_force_ratio)
+                : parameters.force_ratio;
       const double tolerance
           = stage.safety && state.get<ImplicitState>().jumps
                     && target.path == 0.
-                ? std::max(parameters.force_ratio,
+                ? std::max(given,
                            drag_share * balance.dragged / balance.applied)
-                : parameters.force_ratio;
+                : given;
       const bool is_controlled
           = !acting.pattern
             || std::abs(balance.lacking)
