@@ -147,7 +147,7 @@ TEST(LoadParameters, RefusesWhatMakesNoSense)
   expect_refused("set Type = platen\nset Group = a\nset Boundary = b\n",
                  "Group = a", "one of the two");
   expect_refused("set Type = initial stress\nset Stress = 1, 2\n",
-                 "Stress = 1, 2", "must be 3 numbers");
+                 "Stress = 1, 2", "must be three numbers");
 }
 
 TEST(LoadParameters, RefusesMotionWhereAForceIsMeant)

@@ -351,7 +351,7 @@ TEST(Parameters, WrongNumbers)
       { "section 'Time stepping'", "Share of critical time step = 1.5" });
   expect_refused(
       with("set Stress = -1e6, -2e6, 0", "set Stress = -1e6, -2e6"),
-      { "section 'Loads/insitu'", "Stress = -1e6, -2e6", "3 numbers" });
+      { "section 'Loads/insitu'", "Stress = -1e6, -2e6", "three numbers" });
   expect_refused(with("set Point = 0.5, 1", "set Point = 0.5"),
                  { "section 'Histories/ux'", "Point = 0.5", "2 numbers" });
   expect_refused(with("set Interval = 1e-3", "set Interval = -1"),
