@@ -71,7 +71,7 @@ namespace quoin
    * With a free surface a node may be filled in part, to the saturation s. Its
    * pressure is 0 then, its content s V, and what flows from it is less by the
    * factor s^2 (3 - 2 s), 1 where it is full and 0 where it is empty
-   * (@cite Itasca2019). Air is everywhere at the pressure 0.
+   * (@cite Itasca2011). Air is everywhere at the pressure 0.
    */
   class FlowNetwork
   {
