@@ -159,13 +159,12 @@ namespace quoin
               const std::vector<double> &content,
               const std::vector<double> &compliance,
               const std::vector<double> &guess, FlowSolution &result) const;
-    /** Adds to @p result what follows fill() over @p dt in halves if need be.
-     */
-    void fill_in_parts(const FlowConditions &conditions, double dt,
-                       const std::vector<double> &content,
-                       const std::vector<double> &compliance,
-                       const std::vector<double> &guess, unsigned int depth,
-                       FlowSolution &result) const;
+    /** The same in parts of @p dt that are as short as they must be; @p guess
+        as it is for all. Throws a RunError. */
+    FlowSolution fill_in_parts(const FlowConditions &conditions, double dt,
+                               const std::vector<double> &content,
+                               const std::vector<double> &compliance,
+                               const std::vector<double> &guess) const;
     /** Volume that leaves each node through its channels [m^3]. */
     std::vector<double> outflow(const Pressures &pressure, double dt) const;
 
