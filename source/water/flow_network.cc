@@ -200,7 +200,11 @@ namespace quoin
   {
     FlowSolution result;
     if (fluid.has_free_surface)
-      return fill_in_parts(conditions, dt, content, compliance, guess);
+    {
+      const std::vector<double> all = volumes();
+      return fill_in_parts(conditions, dt, content, compliance, guess,
+                           1e-9 * std::accumulate(all.begin(), all.end(), 0.));
+    }
     result.saturation.assign(n_nodes(), 1.);
     const std::vector<double> volume = volumes();
     std::vector<double> storage, known;
@@ -232,7 +236,7 @@ namespace quoin
                          const std::vector<double> &content,
                          const std::vector<double> &compliance,
                          const std::vector<double> &guess,
-                         FlowSolution &result) const
+                         const double most_left, FlowSolution &result) const
   {
     constexpr unsigned int most_iterations = 60;
     // The unknown of a node is its pressure where that is positive; where it is
@@ -395,9 +399,10 @@ namespace quoin
           break;
       }
       unknown = best;
-      // Beside a wide crack rounding may be all that is left over before.
+      // Beside a wide crack rounding leaves more.
       is_found = at.error <= 1e-13 * flows
-                 || (at.error <= 1e-6 * flows && at.error > 0.5 * error);
+                 || (at.error <= std::min(1e-6 * flows, most_left)
+                     && at.error > 0.5 * error);
     }
 
     result.pressure.assign(at.pressure.begin(), at.pressure.end());
@@ -432,11 +437,12 @@ namespace quoin
     return true;
   }
 
-  FlowSolution
-  FlowNetwork::fill_in_parts(const FlowConditions &conditions, const double dt,
-                             const std::vector<double> &content,
-                             const std::vector<double> &compliance,
-                             const std::vector<double> &guess) const
+  FlowSolution FlowNetwork::fill_in_parts(const FlowConditions &conditions,
+                                          const double dt,
+                                          const std::vector<double> &content,
+                                          const std::vector<double> &compliance,
+                                          const std::vector<double> &guess,
+                                          const double most_left) const
   {
     constexpr unsigned int most_failures = 60;
     unsigned int n_failures              = 0;
@@ -448,7 +454,7 @@ namespace quoin
     {
       part_length = std::min(part_length, dt - done);
       if (!fill(conditions, part_length, result.content, compliance, guess,
-                part))
+                most_left, part))
       {
         if (++n_failures > most_failures)
           throw RunError("section 'Water': the flow with a free surface is not "
@@ -492,7 +498,8 @@ namespace quoin
     for (unsigned int step = 0; step < most_steps; ++step, dt *= 3.)
     {
       FlowSolution result
-          = fill_in_parts(conditions, dt, held, nothing, pressure);
+          = fill_in_parts(conditions, dt, held, nothing, pressure,
+                          std::numeric_limits<double>::max());
       // In long steps what Newton's method leaves over is more than a node
       // holds: it does not stay there.
       std::vector<double> holds = contents(result.pressure);

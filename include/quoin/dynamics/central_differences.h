@@ -40,7 +40,7 @@ namespace quoin
                  const AlignedArray<NodeVector<dim>> &before,
                  const AlignedArray<NodeVector<dim>> &after, double share);
 
-  /** The same of the added @p masses alone. */
+  /** Kinetic energy of the added @p masses alone [J]; arguments as above. */
   template <int dim>
   double kinetic_energy(const std::vector<NodeMass<dim>> &masses,
                         const AlignedArray<NodeVector<dim>> &before,
@@ -53,7 +53,7 @@ namespace quoin
                         const std::vector<double> &mass,
                         const AlignedArray<NodeVector<dim>> &before,
                         const AlignedArray<NodeVector<dim>> &after);
-  /** The same of the added @p masses alone. */
+  /** Sum of the added @p masses times squared change of velocity [J]. */
   template <int dim>
   double squared_change(const std::vector<NodeMass<dim>> &masses,
                         const AlignedArray<NodeVector<dim>> &before,

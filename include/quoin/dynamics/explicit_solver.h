@@ -128,7 +128,7 @@ namespace quoin
       return std::exchange(blocks_outside, {});
     }
 
-    /** Of a load with added mass the force of its inertia. */
+    /** The force of a load; with added mass it has that of its inertia. */
     std::array<double, 3> resultant(const std::string &load) const override;
     /** Water that moves with faces in the stage [kg]; collective. */
     double added_water() const;
@@ -220,7 +220,7 @@ namespace quoin
     CentralDifferences<dim> stepper;
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
     std::vector<HydrodynamicMass> reservoirs;
-    /** Of each of them in this stage, and all of them. */
+    /** Added masses of each reservoir in this stage, and of all together. */
     std::vector<std::vector<NodeMass<dim>>> reservoir_masses;
     std::vector<NodeMass<dim>> water_mass;
     double critical_step = 0.;

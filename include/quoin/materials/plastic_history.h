@@ -22,7 +22,8 @@ namespace quoin
     double stress[4]{}; /**< last computed stress, tension positive [Pa] */
   };
 
-  /** The same in space: 11, 22, 33, 12, 13, 23. */
+  /** Internal variables of a tetrahedron as those of PlasticCell; symmetric
+      tensors have the components 11, 22, 33, 12, 13, 23. */
   struct alignas(32) SpacePlasticCell
   {
     double inverse_stretch[6]{};

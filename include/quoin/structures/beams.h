@@ -117,7 +117,7 @@ namespace quoin
     /** Finds masses of nodes so that @p scaled_step [s] is stable; 0: those of
         the beams. */
     void find_masses(double scaled_step, const State<2> &state);
-    /** The same on all ranks. */
+    /** Masses of the nodes of placed beams, alike on all ranks [kg]. */
     BeamMasses masses(const State<2> &state) const;
     /** Stiffness of interfaces at each local node of blocks, as
         add_stiffness_bound() with r = 1 [N/m]; empty: there is none. */
@@ -308,7 +308,7 @@ namespace quoin
       std::array<std::array<double, 2>, 2> ends;
     };
     Loads loads_of(const Line &line, const TimePoint &time) const;
-    /** Their part at @p node [N]. */
+    /** The part of @p loads that acts at @p node [N]. */
     std::array<double, 2> load(const Line &line, unsigned int node,
                                const Loads &loads) const;
     unsigned int previous(const Line &line, const unsigned int node) const

@@ -154,17 +154,20 @@ namespace quoin
                     const std::vector<double> &storage,
                     const std::vector<double> &known) const;
     /** A step with a free surface by Newton's method; false: it does not
-        converge. Arguments: see transient(). */
+        converge, or leaves more than @p most_left [m^3] that rounding does not
+        let it place. Other arguments: see transient(). */
     bool fill(const FlowConditions &conditions, double dt,
               const std::vector<double> &content,
               const std::vector<double> &compliance,
-              const std::vector<double> &guess, FlowSolution &result) const;
-    /** The same in parts of @p dt that are as short as they must be; @p guess
-        as it is for all. Throws a RunError. */
+              const std::vector<double> &guess, double most_left,
+              FlowSolution &result) const;
+    /** Does fill() in parts of @p dt that are as short as they must be; @p
+        guess serves all of them. Throws a RunError. */
     FlowSolution fill_in_parts(const FlowConditions &conditions, double dt,
                                const std::vector<double> &content,
                                const std::vector<double> &compliance,
-                               const std::vector<double> &guess) const;
+                               const std::vector<double> &guess,
+                               double most_left) const;
     /** Volume that leaves each node through its channels [m^3]. */
     std::vector<double> outflow(const Pressures &pressure, double dt) const;
 
