@@ -79,20 +79,20 @@ namespace quoin
                                     const std::vector<double> &density,
                                     const Thickness &thickness)
   {
-    std::vector<NodeVector<dim>> mass(nodes.n_local());
+    std::vector<dealii::Tensor<1, dim>> mass(nodes.n_local());
     const LocalCells<dim> &cells = nodes.cells();
     for (unsigned int c = 0; c < cells.size(); ++c)
     {
       const double share = volume(element(nodes, c)) * thickness[cells.group[c]]
                            * density[cells.group[c]] / (dim + 1.);
       for (const unsigned int node : cells.mass_nodes(c))
-        mass[node].v[0] += share;
+        mass[node][0] += share;
     }
     nodes.exchange().add_to_owners(mass.data());
     nodes.exchange().update_ghosts(mass.data());
     std::vector<double> result;
-    for (const NodeVector<dim> &m : mass)
-      result.push_back(m.v[0]);
+    for (const dealii::Tensor<1, dim> &m : mass)
+      result.push_back(m[0]);
     return result;
   }
 

@@ -63,8 +63,9 @@ namespace quoin
   void BlockForces<2>::make_tiles(const std::size_t tile_bytes)
   {
     // Node record, velocity, force, inverse mass.
-    constexpr std::size_t node_bytes
-        = sizeof(NodeRecord<2>) + 2 * sizeof(NodeVector<2>) + sizeof(double);
+    constexpr std::size_t node_bytes = sizeof(NodeRecord<2>)
+                                       + 2 * sizeof(dealii::Tensor<1, 2>)
+                                       + sizeof(double);
 
     const auto &first_node = data.block_first_node;
     const auto &first_cell = data.block_first_cell;
@@ -84,7 +85,8 @@ namespace quoin
     }
     for (const Tile &tile : tiles)
       if (tile.nodes.end - tile.nodes.begin
-          > std::numeric_limits<std::uint32_t>::max() / sizeof(NodeVector<2>))
+          > std::numeric_limits<std::uint32_t>::max()
+                / sizeof(dealii::Tensor<1, 2>))
         throw InputError(
             "A block has " + std::to_string(tile.nodes.end - tile.nodes.begin)
             + " nodes, more than 268 million: refine the mesh less "
@@ -155,8 +157,8 @@ namespace quoin
             std::max<std::size_t>(lane_begin + step, 2) - 2, end - 1);
         const bool in_piece   = step >= 2 && lane_begin + step - 2 < lane_end;
         const std::size_t row = first + step;
-        offsets[row * n_lanes + lane]
-            = (strips[k].node - tile.nodes.begin) * sizeof(NodeVector<2>);
+        offsets[row * n_lanes + lane] = (strips[k].node - tile.nodes.begin)
+                                        * sizeof(dealii::Tensor<1, 2>);
         if (!in_piece || strips[k].cell == StripEntry::no_cell)
           continue;
         masks[row] |= 1u << lane;
@@ -179,7 +181,7 @@ namespace quoin
   double BlockForces<2>::add_forces_in_lanes(const Tile &tile,
                                              const NodeRecord<2> *nodes,
                                              PlasticHistory &history,
-                                             NodeVector<2> *force) const
+                                             dealii::Tensor<1, 2> *force) const
   {
     double dissipated     = 0.;
     std::uint8_t yielding = 0;
@@ -198,7 +200,7 @@ namespace quoin
                               &masks[run.first_step], run.n_steps };
       ScaledModuli moduli{ run.bulk, run.shear };
       const NodeRecord<2> *tile_records = nodes + tile.nodes.begin;
-      NodeVector<2> *tile_force         = force + tile.nodes.begin;
+      dealii::Tensor<1, 2> *tile_force  = force + tile.nodes.begin;
       if (const MohrCoulomb *yields = data.law(run.stiffness))
       {
         const std::uint32_t *const cells = &lane_cells[run.first_step * lanes];
@@ -237,8 +239,8 @@ namespace quoin
   template <int lanes>
   void BlockForces<2>::add_viscous_forces_in_lanes(
       const Tile &tile, const NodeRecord<2> *nodes,
-      const NodeVector<2> *velocity, const double beta,
-      NodeVector<2> *force) const
+      const dealii::Tensor<1, 2> *velocity, const double beta,
+      dealii::Tensor<1, 2> *force) const
   {
     for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
     {
@@ -254,7 +256,7 @@ namespace quoin
   double BlockForces<2>::add_forces(const unsigned int tile,
                                     const NodeRecord<2> *nodes,
                                     PlasticHistory &history,
-                                    NodeVector<2> *force) const
+                                    dealii::Tensor<1, 2> *force) const
   {
     return n_lanes == 8
                ? add_forces_in_lanes<8>(tiles[tile], nodes, history, force)
@@ -263,9 +265,9 @@ namespace quoin
 
   void BlockForces<2>::add_viscous_forces(const unsigned int tile,
                                           const NodeRecord<2> *nodes,
-                                          const NodeVector<2> *velocity,
+                                          const dealii::Tensor<1, 2> *velocity,
                                           const double beta,
-                                          NodeVector<2> *force) const
+                                          dealii::Tensor<1, 2> *force) const
   {
     if (n_lanes == 8)
       add_viscous_forces_in_lanes<8>(tiles[tile], nodes, velocity, beta, force);

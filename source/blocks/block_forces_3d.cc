@@ -66,8 +66,9 @@ namespace quoin
     const auto &first_node = data.block_first_node;
     const auto &first_cell = data.block_first_cell;
     // Node record, velocity, force, inverse mass.
-    constexpr std::size_t node_bytes
-        = sizeof(NodeRecord<3>) + 2 * sizeof(NodeVector<3>) + sizeof(double);
+    constexpr std::size_t node_bytes = sizeof(NodeRecord<3>)
+                                       + 2 * sizeof(dealii::Tensor<1, 3>)
+                                       + sizeof(double);
     for (std::size_t begin = 0; begin + 1 < first_node.size();)
     {
       std::size_t end = begin + 1;
@@ -169,7 +170,7 @@ namespace quoin
   template <int lanes>
   void BlockForces<3>::add_forces_in_lanes(const Tile &tile,
                                            const NodeRecord<3> *nodes,
-                                           NodeVector<3> *force) const
+                                           dealii::Tensor<1, 3> *force) const
   {
     ChunkNodes copies;
     for (std::size_t c = tile.begin_chunk; c < tile.end_chunk; ++c)
@@ -193,7 +194,7 @@ namespace quoin
   double BlockForces<3>::add_forces(const unsigned int tile,
                                     const NodeRecord<3> *nodes,
                                     PlasticHistory &history,
-                                    NodeVector<3> *force) const
+                                    dealii::Tensor<1, 3> *force) const
   {
     if (n_lanes == 8)
       add_forces_in_lanes<8>(tiles[tile], nodes, force);
@@ -236,9 +237,9 @@ namespace quoin
 
   void BlockForces<3>::add_viscous_forces(const unsigned int tile,
                                           const NodeRecord<3> *nodes,
-                                          const NodeVector<3> *velocity,
+                                          const dealii::Tensor<1, 3> *velocity,
                                           const double beta,
-                                          NodeVector<3> *force) const
+                                          dealii::Tensor<1, 3> *force) const
   {
     for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
          ++k)
@@ -250,7 +251,7 @@ namespace quoin
       double d[3][3], L[3][3], A[3][3], T[3][3];
       for (unsigned int q = 0; q < 3; ++q)
         for (unsigned int i = 0; i < 3; ++i)
-          d[q][i] = velocity[n[q + 1]].v[i] - velocity[n[0]].v[i];
+          d[q][i] = velocity[n[q + 1]][i] - velocity[n[0]][i];
       motion.geometry.gradient(d, L);
       for (unsigned int r = 0; r < 3; ++r)
         for (unsigned int c = 0; c < 3; ++c)

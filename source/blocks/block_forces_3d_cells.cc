@@ -73,7 +73,7 @@ namespace quoin
   void add_cell_forces(const BlockForcesData<3> &data, const std::size_t cell,
                        const Tetrahedron<OneLane> &geometry,
                        const double (&R)[3][3], const double (&T)[3][3],
-                       NodeVector<3> *force)
+                       dealii::Tensor<1, 3> *force)
   {
     double P[3][3], f[3][3];
     for (unsigned int r = 0; r < 3; ++r)
@@ -85,14 +85,15 @@ namespace quoin
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i < 3; ++i)
       {
-        force[n[k + 1]].v[i] += f[k][i];
-        force[n[0]].v[i] -= f[k][i];
+        force[n[k + 1]][i] += f[k][i];
+        force[n[0]][i] -= f[k][i];
       }
   }
 
   double add_plastic_forces(const BlockForcesData<3> &data,
                             const std::size_t cell, const NodeRecord<3> *nodes,
-                            PlasticHistory &history, NodeVector<3> *force)
+                            PlasticHistory &history,
+                            dealii::Tensor<1, 3> *force)
   {
     const CellMotion motion       = cell_motion(data, nodes, cell);
     const SpacePlasticCell before = history.space_cells[cell];
@@ -165,7 +166,8 @@ namespace quoin
 
   double add_forces_by_cell(const BlockForces<3> &blocks,
                             const unsigned int tile, const NodeRecord<3> *nodes,
-                            PlasticHistory &history, NodeVector<3> *force)
+                            PlasticHistory &history,
+                            dealii::Tensor<1, 3> *force)
   {
     const BlockForcesData<3> &data = blocks.cell_data();
     const NodeRange cells          = blocks.tile_cells(tile);

@@ -122,7 +122,8 @@ namespace quoin
 
   double add_forces_by_cell(const BlockForces<2> &blocks,
                             const unsigned int tile, const NodeRecord<2> *nodes,
-                            PlasticHistory &history, NodeVector<2> *force)
+                            PlasticHistory &history,
+                            dealii::Tensor<1, 2> *force)
   {
     const BlockForcesData<2> &data = blocks.cell_data();
     const NodeRange cells          = blocks.tile_cells(tile);
@@ -157,8 +158,9 @@ namespace quoin
   void add_viscous_forces_by_cell(const BlockForces<2> &blocks,
                                   const unsigned int tile,
                                   const NodeRecord<2> *nodes,
-                                  const NodeVector<2> *velocity,
-                                  const double beta, NodeVector<2> *force)
+                                  const dealii::Tensor<1, 2> *velocity,
+                                  const double beta,
+                                  dealii::Tensor<1, 2> *force)
   {
     const BlockForcesData<2> &data = blocks.cell_data();
     const NodeRange cells          = blocks.tile_cells(tile);
@@ -167,8 +169,7 @@ namespace quoin
       const auto [a, b, c] = data.cells[k];
       const Triangle triangle(nodes[a], nodes[b], nodes[c]);
       const CorotatedStrain strain(cell_gradient(data, nodes, k));
-      const auto L
-          = triangle.gradient(velocity[a].v, velocity[b].v, velocity[c].v);
+      const auto L = triangle.gradient(velocity[a], velocity[b], velocity[c]);
       // sym(R^T L)
       const double cs = strain.c, sn = strain.s;
       const PlaneTensor rate{ beta * (cs * L[0] + sn * L[2]),

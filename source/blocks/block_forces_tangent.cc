@@ -14,7 +14,7 @@ namespace quoin
   CellPoint::displacement_gradient(const NodeRecord<2> *records) const
   {
     // Differences keep the digits of strains under large motions.
-    const double *origin = records[nodes[0]].u;
+    const dealii::Tensor<1, 2> origin = records[nodes[0]].u;
     std::array<double, 4> H{};
     for (unsigned int i = 1; i < n_nodes; ++i)
       for (unsigned int d = 0; d < 2; ++d)

@@ -51,13 +51,13 @@ namespace quoin
   void add_cell_forces(const BlockForcesData<3> &data, std::size_t cell,
                        const Tetrahedron<OneLane> &geometry,
                        const double (&R)[3][3], const double (&T)[3][3],
-                       NodeVector<3> *force);
+                       dealii::Tensor<1, 3> *force);
 
   /** Updates @p history of a cell with a yield law, adds its forces and returns
       the energy that this dissipates [J]. */
   double add_plastic_forces(const BlockForcesData<3> &data, std::size_t cell,
                             const NodeRecord<3> *nodes, PlasticHistory &history,
-                            NodeVector<3> *force);
+                            dealii::Tensor<1, 3> *force);
 } // namespace quoin
 
 #endif

@@ -60,7 +60,7 @@ namespace quoin
 
       /** Returns the dissipated energy [J]. */
       double add_forces(const StripSequence &sequence,
-                        const NodeRecord<2> *nodes, NodeVector<2> *force,
+                        const NodeRecord<2> *nodes, dealii::Tensor<1, 2> *force,
                         Prefetcher &prefetcher) const;
 
     private:
@@ -260,7 +260,7 @@ namespace quoin
     template <int lanes, bool intact>
     double PlasticStrips<lanes, intact>::add_forces(
         const StripSequence &sequence, const NodeRecord<2> *nodes,
-        NodeVector<2> *force, Prefetcher &prefetcher) const
+        dealii::Tensor<1, 2> *force, Prefetcher &prefetcher) const
     {
       char *const sums = reinterpret_cast<char *>(force);
 

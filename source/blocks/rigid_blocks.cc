@@ -165,16 +165,17 @@ namespace quoin
 
   inline DEAL_II_ALWAYS_INLINE RigidBlocks::Resultants
   RigidBlocks::take_forces(const Block &block, const Direction &now,
-                           NodeVector<2> *force, NodeVector<2> *viscous) const
+                           dealii::Tensor<1, 2> *force,
+                           dealii::Tensor<1, 2> *viscous) const
   {
     Resultants sum;
-    const auto take =
-        [](double(&to)[3], const double x, const double y, NodeVector<2> &node)
+    const auto take = [](double(&to)[3], const double x, const double y,
+                         dealii::Tensor<1, 2> &node)
     {
-      to[0] += node.v[0];
-      to[1] += node.v[1];
-      to[2] += x * node.v[1] - y * node.v[0];
-      node = NodeVector<2>{ { 0., 0. } };
+      to[0] += node[0];
+      to[1] += node[1];
+      to[2] += x * node[1] - y * node[0];
+      node = dealii::Tensor<1, 2>();
     };
     const Arm *arm = arms_of(block);
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
@@ -201,20 +202,20 @@ namespace quoin
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
     {
       const double x = arm->x, y = arm->y;
-      double *u = state.nodes[i].u;
-      u[0]      = rigid.displacement[0] - versine * x - after.s * y;
-      u[1]      = rigid.displacement[1] + after.s * x - versine * y;
+      dealii::Tensor<1, 2> &u = state.nodes[i].u;
+      u[0] = rigid.displacement[0] - versine * x - after.s * y;
+      u[1] = rigid.displacement[1] + after.s * x - versine * y;
       // Velocities follow from the mean of the arms before and after.
-      double *v = state.velocity[i].v;
-      v[0]      = rigid.velocity[0] - half * (s * x + c * y);
-      v[1]      = rigid.velocity[1] + half * (c * x - s * y);
+      dealii::Tensor<1, 2> &v = state.velocity[i];
+      v[0]                    = rigid.velocity[0] - half * (s * x + c * y);
+      v[1]                    = rigid.velocity[1] + half * (c * x - s * y);
     }
   }
 
   RigidBlockWork RigidBlocks::advance(const StepContext &step,
                                       const RigidBlockStage &stage,
-                                      NodeVector<2> *force,
-                                      NodeVector<2> *viscous,
+                                      dealii::Tensor<1, 2> *force,
+                                      dealii::Tensor<1, 2> *viscous,
                                       State<2> &state) const
   {
     const double a            = 0.5 * step.dt_velocity * step.mass_damping;
@@ -228,7 +229,7 @@ namespace quoin
       if (stage.held[b])
       {
         for (unsigned int i = block.begin; i < block.end; ++i)
-          force[i] = viscous[i] = NodeVector<2>{ { 0., 0. } };
+          force[i] = viscous[i] = dealii::Tensor<1, 2>();
         continue;
       }
       RigidBlockState &rigid = state.get<RigidBlockStates>()[b];
@@ -266,15 +267,15 @@ namespace quoin
     return work;
   }
 
-  std::array<double, 3> RigidBlocks::resultant(const Block &block,
-                                               const Direction &now,
-                                               const NodeVector<2> *force) const
+  std::array<double, 3>
+  RigidBlocks::resultant(const Block &block, const Direction &now,
+                         const dealii::Tensor<1, 2> *force) const
   {
     std::array<double, 3> sum{};
     const Arm *arm = arms_of(block);
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
     {
-      const double *f = force[i].v;
+      const dealii::Tensor<1, 2> &f = force[i];
       sum[0] += f[0];
       sum[1] += f[1];
       sum[2] += (now.c * arm->x - now.s * arm->y) * f[1]
@@ -284,8 +285,8 @@ namespace quoin
   }
 
   double RigidBlocks::mobility(const RigidBlockStage &stage,
-                               const NodeVector<2> *force, const double dt,
-                               const State<2> &state) const
+                               const dealii::Tensor<1, 2> *force,
+                               const double dt, const State<2> &state) const
   {
     double sum = 0.;
     for (unsigned int b = 0; b < blocks.size(); ++b)
@@ -303,8 +304,9 @@ namespace quoin
   }
 
   void RigidBlocks::push(const RigidBlockStage &stage,
-                         const NodeVector<2> *force, const double duration,
-                         const double dt, State<2> &state) const
+                         const dealii::Tensor<1, 2> *force,
+                         const double duration, const double dt,
+                         State<2> &state) const
   {
     for (unsigned int b = 0; b < blocks.size(); ++b)
     {
@@ -342,7 +344,7 @@ namespace quoin
         for (unsigned int k = 0; k < 2; ++k)
         {
           d[k] += arm->share * state.nodes[i].u[k];
-          v[k] += arm->share * state.velocity[i].v[k];
+          v[k] += arm->share * state.velocity[i][k];
         }
 
       // (R - 1) r is the displacement of nodes relative to the centroid.
@@ -369,8 +371,8 @@ namespace quoin
       {
         const double x = c * arm->x - s * arm->y, y = s * arm->x + c * arm->y;
         moment += arm->share
-                  * (x * (state.velocity[i].v[1] - v[1])
-                     - y * (state.velocity[i].v[0] - v[0]));
+                  * (x * (state.velocity[i][1] - v[1])
+                     - y * (state.velocity[i][0] - v[0]));
       }
       for (unsigned int k = 0; k < 2; ++k)
       {

@@ -5,7 +5,7 @@
 #define quoin_source_blocks_strip_kernel_h
 
 #include <quoin/base/lanes.h>
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 #include <quoin/materials/plastic_history.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ namespace quoin
     class Prefetcher
     {
     public:
-      Prefetcher(const NodeRecord<2> *nodes, const NodeVector<2> *force,
+      Prefetcher(const NodeRecord<2> *nodes, const dealii::Tensor<1, 2> *force,
                  const std::uint32_t *begin, const std::uint32_t *end,
                  const std::size_t n_calls)
         : records(reinterpret_cast<const char *>(nodes)),
@@ -217,7 +217,7 @@ namespace quoin
     __attribute__((noinline)) void
     elastic_strips(const StripSequence sequence, const ScaledModuli moduli,
                    const double *stress, const NodeRecord<2> *nodes,
-                   NodeVector<2> *force, Prefetcher &prefetcher)
+                   dealii::Tensor<1, 2> *force, Prefetcher &prefetcher)
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
@@ -303,8 +303,9 @@ namespace quoin
     template <int lanes>
     __attribute__((noinline)) void
     viscous_strips(const StripSequence sequence, const ScaledModuli moduli,
-                   const NodeRecord<2> *nodes, const NodeVector<2> *velocity,
-                   NodeVector<2> *force)
+                   const NodeRecord<2> *nodes,
+                   const dealii::Tensor<1, 2> *velocity,
+                   dealii::Tensor<1, 2> *force)
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;

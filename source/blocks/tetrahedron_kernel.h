@@ -5,7 +5,7 @@
 #define quoin_source_blocks_tetrahedron_kernel_h
 
 #include <quoin/base/lanes.h>
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 #include <quoin/blocks/tetrahedron.h>
 
 #include <cstddef>
@@ -46,12 +46,12 @@ namespace quoin
       }
 
       void add_forces(const std::uint32_t *node, const std::size_t n,
-                      NodeVector<3> *sums) const
+                      dealii::Tensor<1, 3> *sums) const
       {
         for (std::size_t k = 0; k < n; ++k)
         {
           // A store of all four would delay the load of the next node.
-          double *f = sums[node[k]].v;
+          double *f = sums[node[k]].begin_raw();
           *reinterpret_cast<UnalignedPair *>(f)
               += __builtin_shufflevector(force[k], force[k], 0, 1);
           f[2] += force[k][2];

@@ -60,22 +60,22 @@ namespace quoin
     return PairFunctions<1>::slip(anchor_of(point), a, b, normal);
   }
 
-  void BlockContacts::gather_velocities(const NodeVector<2> *velocity)
+  void BlockContacts::gather_velocities(const dealii::Tensor<1, 2> *velocity)
   {
     reach->update_ghosts(velocity, ghost_velocity.data());
-    NodeVector<2> *to = compact_velocity.data();
+    dealii::Tensor<1, 2> *to = compact_velocity.data();
     for (const unsigned int i : compact_own)
       *to++ = velocity[i];
     std::copy(ghost_velocity.begin(), ghost_velocity.end(), to);
   }
 
-  void BlockContacts::scatter(AlignedArray<NodeVector<2>> &from,
-                              NodeVector<2> *to) const
+  void BlockContacts::scatter(AlignedArray<dealii::Tensor<1, 2>> &from,
+                              dealii::Tensor<1, 2> *to) const
   {
     for (unsigned int j = 0; j < compact_own.size(); ++j)
       for (unsigned int d = 0; d < 2; ++d)
-        to[compact_own[j]].v[d] += from[j].v[d];
-    std::fill(from.begin(), from.end(), NodeVector<2>{ { 0., 0. } });
+        to[compact_own[j]][d] += from[j][d];
+    std::fill(from.begin(), from.end(), dealii::Tensor<1, 2>());
   }
 
   double BlockContacts::release(ContactPair &pair) const
@@ -147,9 +147,9 @@ namespace quoin
     const bool is_of_a     = g.share[k] < 0.5;
     const Edge &touched    = local_edges[is_of_a ? b : a];
     const EdgeLinks &links = edge_links[is_of_a ? b : a];
-    const double *vertex   = position[is_of_a ? edge_links[a].nodes[k]
-                                              : edge_links[b].nodes[1 - k]]
-                               .v;
+    const dealii::Tensor<1, 2> &vertex
+        = position[is_of_a ? edge_links[a].nodes[k]
+                           : edge_links[b].nodes[1 - k]];
     for (const unsigned int e : links.neighbours)
     {
       const Edge &next     = local_edges[e];
@@ -255,16 +255,19 @@ namespace quoin
     for (unsigned int k = 0; k < 2; ++k)
     {
       const double la = g.lower[k] * a.length, lb = g.upper[k] * b.length;
-      result.lower[k] = { a.x + la * a.tangent[0], a.y + la * a.tangent[1] };
-      result.upper[k] = { b.x + lb * b.tangent[0], b.y + lb * b.tangent[1] };
+      result.lower[k]
+          = dealii::Point<2>(a.x + la * a.tangent[0], a.y + la * a.tangent[1]);
+      result.upper[k]
+          = dealii::Point<2>(b.x + lb * b.tangent[0], b.y + lb * b.tangent[1]);
       const ContactPoint &point = pair.points[k];
       const double sigma        = point.area * point.normal_traction;
       const double tau          = point.area * point.shear_traction;
       const auto &[nx, ny]      = g.normal[k];
-      result.force[k]     = { sigma * nx + tau * ny, sigma * ny - tau * nx };
+      result.force[k]
+          = dealii::Point<2>(sigma * nx + tau * ny, sigma * ny - tau * nx);
       const auto &[p, q]  = edges[pair.lower].points;
-      result.reference[k] = { p[0] + g.lower[k] * (q[0] - p[0]),
-                              p[1] + g.lower[k] * (q[1] - p[1]) };
+      result.reference[k] = dealii::Point<2>(p[0] + g.lower[k] * (q[0] - p[0]),
+                                             p[1] + g.lower[k] * (q[1] - p[1]));
       result.opening[k]   = g.opening[k];
       result.slip[k]      = slip(pair.points[k], i, g.normal[k]);
     }
@@ -295,9 +298,9 @@ namespace quoin
       const EdgeLanes<1> &edge = n < 2 ? a : b;
       const auto &f            = n < 2 ? force.a[n] : force.b[n - 2];
       const double distance    = n % 2 == 0 ? 0. : edge.length;
-      result.place[n]          = { edge.x + distance * edge.tangent[0],
-                                   edge.y + distance * edge.tangent[1] };
-      result.force[n]          = { f[0], f[1] };
+      result.place[n] = dealii::Point<2>(edge.x + distance * edge.tangent[0],
+                                         edge.y + distance * edge.tangent[1]);
+      result.force[n] = dealii::Point<2>(f[0], f[1]);
     }
     result.share = pair_weights[i].share;
     return true;

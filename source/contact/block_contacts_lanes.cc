@@ -32,10 +32,12 @@ namespace quoin
   void BlockContacts::gather(const State<2> &state)
   {
     reach->update_ghosts(state.nodes.data(), ghost_nodes.data());
-    const auto place = [](const NodeRecord<2> &node) {
-      return NodeVector<2>{ { node.X[0] + node.u[0], node.X[1] + node.u[1] } };
+    const auto place = [](const NodeRecord<2> &node)
+    {
+      return dealii::Tensor<1, 2>(
+          { node.X[0] + node.u[0], node.X[1] + node.u[1] });
     };
-    NodeVector<2> *to = position.data();
+    dealii::Tensor<1, 2> *to = position.data();
     for (const unsigned int i : compact_own)
       *to++ = place(state.nodes[i]);
     for (const NodeRecord<2> &node : ghost_nodes)
@@ -52,7 +54,7 @@ namespace quoin
       F::Value x[2], y[2];
       for (unsigned int k = 0; k < 2; ++k)
         L::load(reinterpret_cast<const char *>(position.data()),
-                sizeof(NodeVector<2>), nodes[k], x[k], y[k]);
+                sizeof(dealii::Tensor<1, 2>), nodes[k], x[k], y[k]);
       const F::Value dx = x[1] - x[0], dy = y[1] - y[0];
       const F::Value length  = F::square_root(dx * dx + dy * dy);
       const F::Value inverse = 1. / length;

@@ -128,14 +128,14 @@ namespace quoin
     std::vector<unsigned int> find_boundary_nodes(const ContactEdges &edges,
                                                   const NodeExchange &exchange)
     {
-      std::vector<NodeVector<1>> n_edges(exchange.n_local(),
-                                         NodeVector<1>{ { 0. } });
+      std::vector<dealii::Tensor<1, 1>> n_edges(exchange.n_local(),
+                                                dealii::Tensor<1, 1>({ 0. }));
       for (const auto &[first, last] : edges.local_nodes())
-        n_edges[first].v[0] += 1.;
+        n_edges[first][0] += 1.;
       exchange.add_to_owners(n_edges.data());
       std::vector<unsigned int> result;
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
-        if (n_edges[i].v[0] > 0.)
+        if (n_edges[i][0] > 0.)
           result.push_back(i);
       return result;
     }
@@ -210,9 +210,9 @@ namespace quoin
     Look look;
     for (unsigned int i = 0; i < boundary_nodes.size() && !is_first; ++i)
     {
-      const NodeRecord<2> &node = state.nodes[boundary_nodes[i]];
-      const double *from        = contacts.search_positions[i].v;
-      const double *v           = state.velocity[boundary_nodes[i]].v;
+      const NodeRecord<2> &node        = state.nodes[boundary_nodes[i]];
+      const dealii::Tensor<1, 2> &from = contacts.search_positions[i];
+      const dealii::Tensor<1, 2> &v    = state.velocity[boundary_nodes[i]];
       look.moved.take(node.X[0] + node.u[0] - from[0],
                       node.X[1] + node.u[1] - from[1]);
       look.speed.take(v[0], v[1]);
@@ -515,8 +515,7 @@ namespace quoin
     for (const unsigned int i : boundary_nodes)
     {
       const NodeRecord<2> &node = state.nodes[i];
-      contacts.search_positions.push_back(
-          { { node.X[0] + node.u[0], node.X[1] + node.u[1] } });
+      contacts.search_positions.push_back(node.position());
     }
     ++contacts.n_searches;
     contacts.marks.clear();
@@ -711,8 +710,8 @@ namespace quoin
     const unsigned int n_nodes = compact_own.size() + ghosts.size();
     position.resize(n_nodes);
     compact_velocity.resize(n_nodes);
-    compact_force.assign(n_nodes, NodeVector<2>{ { 0., 0. } });
-    compact_viscous.assign(n_nodes, NodeVector<2>{ { 0., 0. } });
+    compact_force.assign(n_nodes, dealii::Tensor<1, 2>());
+    compact_viscous.assign(n_nodes, dealii::Tensor<1, 2>());
   }
 
   void BlockContacts::bind_pairs(const ContactState &contacts)
@@ -811,7 +810,7 @@ namespace quoin
     unsigned int fast = NodeMap<2>::none;
     for (const unsigned int i : boundary_nodes)
     {
-      const double *v = state.velocity[i].v;
+      const dealii::Tensor<1, 2> &v = state.velocity[i];
       if (std::sqrt(v[0] * v[0] + v[1] * v[1]) >= speed)
         fast = std::min(fast, i);
     }

@@ -46,13 +46,14 @@ namespace quoin
                       const std::vector<double> &masses, const double impedance,
                       DampingBound &bound)
     {
-      std::vector<NodeVector<1>> area(nodes.n_local(), NodeVector<1>{ { 0. } });
+      std::vector<dealii::Tensor<1, 1>> area(nodes.n_local(),
+                                             dealii::Tensor<1, 1>({ 0. }));
       for_each_boundary_edge(
           nodes, thickness,
           [&](const std::array<unsigned int, 2> &edge, const double tributary)
           {
             for (const unsigned int node : edge)
-              area[node].v[0] += tributary;
+              area[node][0] += tributary;
           });
       nodes.exchange().add_to_owners(area.data());
       const unsigned int n_sets = laws.size();
@@ -67,10 +68,10 @@ namespace quoin
             const double root   = std::max(dampings[s].normal * std::sqrt(kn),
                                            dampings[s].shear * std::sqrt(ks));
             dashpot             = std::max(dashpot,
-                                           2. * root * std::sqrt(masses[b] * area[i].v[0]));
+                                           2. * root * std::sqrt(masses[b] * area[i][0]));
           }
         // As a spring, between two nodes it counts twice at each.
-        bound.dashpot[i] += 2. * std::min(dashpot, impedance * area[i].v[0]);
+        bound.dashpot[i] += 2. * std::min(dashpot, impedance * area[i][0]);
       }
       for (unsigned int b = 0; b < bound.share.size(); ++b)
       {

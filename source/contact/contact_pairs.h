@@ -71,7 +71,7 @@ namespace quoin
         node[l] = edge_links[n < 2 ? ea[l] : eb[l]].nodes[n % 2];
       Lanes<lanes>::load(
           reinterpret_cast<const char *>(compact_velocity.data()),
-          sizeof(NodeVector<2>), node, v[n][0], v[n][1]);
+          sizeof(dealii::Tensor<1, 2>), node, v[n][0], v[n][1]);
     }
     for (unsigned int d = 0; d < 2; ++d)
       rate[d] = (1. - upper) * v[2][d] + upper * v[3][d]
@@ -83,7 +83,7 @@ namespace quoin
   BlockContacts::add_to_ends(const EndForceLanes<lanes> &forces,
                              const std::uint32_t *ea, const std::uint32_t *eb,
                              const unsigned int present,
-                             NodeVector<2> *to) const
+                             dealii::Tensor<1, 2> *to) const
   {
     // Pair after pair, so that sums do not depend on which are beside which.
     using L = Lanes<lanes>;
@@ -99,7 +99,7 @@ namespace quoin
         for (unsigned int n = 0; n < 4; ++n)
         {
           const EdgeLinks &edge = edge_links[n < 2 ? ea[l] : eb[l]];
-          Lanes<4>::pair(reinterpret_cast<char *>(to[edge.nodes[n % 2]].v))
+          Lanes<4>::pair(reinterpret_cast<char *>(&to[edge.nodes[n % 2]]))
               += Lanes<4>::pair(
                   reinterpret_cast<const char *>(&rows[l][2 * n]));
         }

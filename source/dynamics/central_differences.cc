@@ -19,15 +19,6 @@ namespace quoin
     constexpr double adaptive_change = 1.005;
 
     template <int dim>
-    double norm(const NodeVector<dim> &f)
-    {
-      double square = 0.;
-      for (const double component : f.v)
-        square += component * component;
-      return std::sqrt(square);
-    }
-
-    template <int dim>
     using Matrix = std::array<std::array<double, dim>, dim>;
 
     /** Inverse of the rows and columns of @p matrix, positive definite, that
@@ -94,25 +85,26 @@ namespace quoin
   }
 
   template <int dim>
-  double
-  kinetic_energy(const NodeMap<dim> &nodes, const std::vector<double> &mass,
-                 const AlignedArray<NodeVector<dim>> &before,
-                 const AlignedArray<NodeVector<dim>> &after, const double share)
+  double kinetic_energy(const NodeMap<dim> &nodes,
+                        const std::vector<double> &mass,
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after,
+                        const double share)
   {
     double kinetic = 0.;
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double v = before[i].v[d];
-        kinetic += 0.5 * mass[i] * v * (v + share * (after[i].v[d] - v));
+        const double v = before[i][d];
+        kinetic += 0.5 * mass[i] * v * (v + share * (after[i][d] - v));
       }
     return kinetic;
   }
 
   template <int dim>
   double kinetic_energy(const std::vector<NodeMass<dim>> &masses,
-                        const AlignedArray<NodeVector<dim>> &before,
-                        const AlignedArray<NodeVector<dim>> &after,
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after,
                         const double share)
   {
     double kinetic = 0.;
@@ -120,38 +112,38 @@ namespace quoin
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
         {
-          const double v = before[i].v[e];
-          kinetic += 0.5 * before[i].v[d] * mass[d][e]
-                     * (v + share * (after[i].v[e] - v));
+          const double v = before[i][e];
+          kinetic += 0.5 * before[i][d] * mass[d][e]
+                     * (v + share * (after[i][e] - v));
         }
     return kinetic;
   }
 
   template <int dim>
   double squared_change(const std::vector<NodeMass<dim>> &masses,
-                        const AlignedArray<NodeVector<dim>> &before,
-                        const AlignedArray<NodeVector<dim>> &after)
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after)
   {
     double sum = 0.;
     for (const auto &[i, mass] : masses)
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
-          sum += (after[i].v[d] - before[i].v[d]) * mass[d][e]
-                 * (after[i].v[e] - before[i].v[e]);
+          sum += (after[i][d] - before[i][d]) * mass[d][e]
+                 * (after[i][e] - before[i][e]);
     return sum;
   }
 
   template <int dim>
   double squared_change(const NodeMap<dim> &nodes,
                         const std::vector<double> &mass,
-                        const AlignedArray<NodeVector<dim>> &before,
-                        const AlignedArray<NodeVector<dim>> &after)
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after)
   {
     double sum = 0.;
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double change = after[i].v[d] - before[i].v[d];
+        const double change = after[i][d] - before[i][d];
         sum += mass[i] * change * change;
       }
     return sum;
@@ -166,8 +158,8 @@ namespace quoin
                             clock.phase("loads"), clock.phase("exchange") },
       force_sum(exchange), viscous_sum(exchange)
   {
-    force.assign(exchange.n_local(), NodeVector<dim>{});
-    viscous_force.assign(exchange.n_local(), NodeVector<dim>{});
+    force.assign(exchange.n_local(), dealii::Tensor<1, dim>());
+    viscous_force.assign(exchange.n_local(), dealii::Tensor<1, dim>());
   }
 
   // -- a stage ---------------------------------------------------------------
@@ -328,9 +320,9 @@ namespace quoin
     // Forces on partner nodes are booked by their owners.
     for (unsigned int i = exchange.n_owned() + exchange.n_shared();
          i < exchange.n_local(); ++i)
-      force[i] = viscous_force[i] = NodeVector<dim>{};
+      force[i] = viscous_force[i] = dealii::Tensor<1, dim>();
     for (const unsigned int node : held)
-      force[node] = NodeVector<dim>{};
+      force[node] = dealii::Tensor<1, dim>();
     if (state.stage_step == 0 && !begun.empty())
       find_begun_forces(context, state);
   }
@@ -339,7 +331,8 @@ namespace quoin
   void CentralDifferences<dim>::find_begun_forces(const StepContext &context,
                                                   State<dim> &state)
   {
-    AlignedArray<NodeVector<dim>> sum(force.size(), NodeVector<dim>{});
+    AlignedArray<dealii::Tensor<1, dim>> sum(force.size(),
+                                             dealii::Tensor<1, dim>());
     for (ForceOperator<dim> *load : begun)
       load->add_forces(context, state, { sum.data(), nullptr });
     for (CapturedNode<dim> &node : captured)
@@ -354,30 +347,30 @@ namespace quoin
     node.viscous = viscous_force[node.node];
     for (unsigned int d = 0; d < dim; ++d)
     {
-      node.force.v[d] += node.viscous.v[d];
-      node.displacement.v[d] = state.nodes[node.node].u[d];
+      node.force[d] += node.viscous[d];
+      node.displacement[d] = state.nodes[node.node].u[d];
     }
     node.velocity = state.velocity[node.node];
   }
 
   template <int dim>
-  void
-  CentralDifferences<dim>::finish_sum(OwnerSum<NodeVector<dim>> &sum,
-                                      AlignedArray<NodeVector<dim>> &values)
+  void CentralDifferences<dim>::finish_sum(
+      OwnerSum<dealii::Tensor<1, dim>> &sum,
+      AlignedArray<dealii::Tensor<1, dim>> &values)
   {
     sum.finish(values.data());
     const auto begin = values.begin() + exchange.n_owned();
-    std::fill(begin, begin + exchange.n_shared(), NodeVector<dim>{});
+    std::fill(begin, begin + exchange.n_shared(), dealii::Tensor<1, dim>());
   }
 
   template <int dim>
   double CentralDifferences<dim>::applied_force() const
   {
-    AlignedArray<NodeVector<dim>> total = force;
+    AlignedArray<dealii::Tensor<1, dim>> total = force;
     exchange.add_to_owners(total.data());
     double sum = 0.;
     for (unsigned int i = 0; i < exchange.n_owned(); ++i)
-      sum += norm(total[i]);
+      sum += total[i].norm();
     return sum;
   }
 
@@ -392,7 +385,7 @@ namespace quoin
     if (balance)
       for (std::size_t i = range.begin; i < range.end; ++i)
         if (inverse_mass[i] > 0.)
-          sums.unbalanced += norm(force[i]);
+          sums.unbalanced += force[i].norm();
     if (stage.damping == DampingType::none && !dashpots)
       return advance_nodes(
           range.begin, range.end, state.nodes.data(), state.velocity.data(),
@@ -470,18 +463,18 @@ namespace quoin
       {
         if (node.owner[d] || node.has_added_mass)
           continue;
-        const double v0    = node.velocity.v[d];
+        const double v0    = node.velocity[d];
         const double gain  = context.dt_velocity / (1. + a) / node.mass;
-        const double w     = (1. - a) / (1. + a) * v0 + gain * node.force.v[d];
+        const double w     = (1. - a) / (1. + a) * v0 + gain * node.force[d];
         const double local = -local_damping_velocity(
-            context.local_damping * gain * std::abs(node.force.v[d]), v0, w);
+            context.local_damping * gain * std::abs(node.force[d]), v0, w);
         const double v1 = w + local;
         const double drag
             = local / gain - context.mass_damping * node.mass * 0.5 * (v0 + v1);
         state.energy.damping -= 0.5 * context.dt_before * drag * v0;
         state.pending.damping -= 0.5 * context.dt * drag * v1;
-        state.velocity[node.node].v[d] = v1;
-        state.nodes[node.node].u[d] = node.displacement.v[d] + context.dt * v1;
+        state.velocity[node.node][d] = v1;
+        state.nodes[node.node].u[d]  = node.displacement[d] + context.dt * v1;
       }
     clock.lap(phases.loads);
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -500,10 +493,10 @@ namespace quoin
       for (const CapturedNode<dim> &node : captured)
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const double v1 = state.velocity[node.node].v[d];
-          state.energy.damping -= 0.5 * context.dt_before * node.viscous.v[d]
-                                  * node.velocity.v[d];
-          state.pending.damping -= 0.5 * context.dt * node.viscous.v[d] * v1;
+          const double v1 = state.velocity[node.node][d];
+          state.energy.damping
+              -= 0.5 * context.dt_before * node.viscous[d] * node.velocity[d];
+          state.pending.damping -= 0.5 * context.dt * node.viscous[d] * v1;
         }
     clock.lap(phases.loads);
   }
@@ -515,25 +508,24 @@ namespace quoin
     const double h = context.dt_velocity, a = 0.5 * h * context.mass_damping;
     for (HeavyNode &each : heavy)
     {
-      CapturedNode<dim> &node  = captured[each.captured];
-      NodeVector<dim> &v1      = state.velocity[node.node];
-      const NodeVector<dim> v0 = node.velocity;
+      CapturedNode<dim> &node         = captured[each.captured];
+      dealii::Tensor<1, dim> &v1      = state.velocity[node.node];
+      const dealii::Tensor<1, dim> v0 = node.velocity;
       // Prescribed components accelerate the water, too.
-      NodeVector<dim> force = node.force;
+      dealii::Tensor<1, dim> force = node.force;
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
           if (node.owner[e])
-            force.v[d] -= each.mass[d][e] * (v1.v[e] - v0.v[e]) / h;
+            force[d] -= each.mass[d][e] * (v1[e] - v0[e]) / h;
       for (unsigned int d = 0; d < dim; ++d)
       {
         if (node.owner[d])
           continue;
         double acceleration = 0.;
         for (unsigned int e = 0; e < dim; ++e)
-          acceleration += each.inverse[d][e] * force.v[e];
-        v1.v[d] = (1. - a) / (1. + a) * v0.v[d] + h / (1. + a) * acceleration;
-        state.nodes[node.node].u[d]
-            = node.displacement.v[d] + context.dt * v1.v[d];
+          acceleration += each.inverse[d][e] * force[e];
+        v1[d] = (1. - a) / (1. + a) * v0[d] + h / (1. + a) * acceleration;
+        state.nodes[node.node].u[d] = node.displacement[d] + context.dt * v1[d];
       }
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
@@ -542,23 +534,23 @@ namespace quoin
             continue;
           const double mass = each.mass[d][e] + (d == e ? node.mass : 0.);
           const double drag
-              = -0.5 * context.mass_damping * mass * (v0.v[e] + v1.v[e]);
-          state.energy.damping -= 0.5 * context.dt_before * drag * v0.v[d];
-          state.pending.damping -= 0.5 * context.dt * drag * v1.v[d];
+              = -0.5 * context.mass_damping * mass * (v0[e] + v1[e]);
+          state.energy.damping -= 0.5 * context.dt_before * drag * v0[d];
+          state.pending.damping -= 0.5 * context.dt * drag * v1[d];
         }
       for (unsigned int d = 0; d < dim; ++d)
-        each.acceleration.v[d] = (v1.v[d] - v0.v[d]) / h;
+        each.acceleration[d] = (v1[d] - v0[d]) / h;
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
-          node.force.v[d] -= each.mass[d][e] * each.acceleration.v[e];
+          node.force[d] -= each.mass[d][e] * each.acceleration[e];
     }
   }
 
   template <int dim>
-  NodeVector<dim>
+  dealii::Tensor<1, dim>
   CentralDifferences<dim>::inertia_force(const NodeMass<dim> &mass) const
   {
-    NodeVector<dim> force{};
+    dealii::Tensor<1, dim> force;
     const auto found
         = std::lower_bound(heavy.begin(), heavy.end(), mass.node,
                            [&](const HeavyNode &each, const unsigned int node)
@@ -567,7 +559,7 @@ namespace quoin
       return force;
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int e = 0; e < dim; ++e)
-        force.v[d] -= mass.mass[d][e] * found->acceleration.v[e];
+        force[d] -= mass.mass[d][e] * found->acceleration[e];
     return force;
   }
 
@@ -642,22 +634,22 @@ namespace quoin
     // load takes the rest; a prescribed component has a reaction and none.
     for (const CapturedNode<dim> &node : captured)
     {
-      NodeVector<dim> free{}, reaction{};
+      dealii::Tensor<1, dim> free, reaction{};
       for (unsigned int d = 0; d < dim; ++d)
         if (!node.owner[d])
-          free.v[d] = node.force.v[d];
+          free[d] = node.force[d];
         else if (node.owner[d]->traits().holds[d]
                  || node.owner[d]->traits().is_rigid_body())
-          reaction.v[d] = node.force.v[d];
+          reaction[d] = node.force[d];
         else
         {
-          free.v[d] = node.mass
-                      * (state.velocity[node.node].v[d] - node.velocity.v[d])
-                      / context.dt_velocity;
-          reaction.v[d] = free.v[d] - node.force.v[d];
+          free[d] = node.mass
+                    * (state.velocity[node.node][d] - node.velocity[d])
+                    / context.dt_velocity;
+          reaction[d] = free[d] - node.force[d];
         }
-      sums.unbalanced += norm(free);
-      sums.applied += norm(reaction);
+      sums.unbalanced += free.norm();
+      sums.applied += reaction.norm();
     }
     double all[2] = { sums.applied, sums.unbalanced };
     MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_DOUBLE, MPI_SUM,
@@ -674,32 +666,36 @@ namespace quoin
                                     double);
   template double kinetic_energy(const NodeMap<2> &,
                                  const std::vector<double> &,
-                                 const AlignedArray<NodeVector<2>> &,
-                                 const AlignedArray<NodeVector<2>> &, double);
+                                 const AlignedArray<dealii::Tensor<1, 2>> &,
+                                 const AlignedArray<dealii::Tensor<1, 2>> &,
+                                 double);
   template double kinetic_energy(const std::vector<NodeMass<2>> &,
-                                 const AlignedArray<NodeVector<2>> &,
-                                 const AlignedArray<NodeVector<2>> &, double);
+                                 const AlignedArray<dealii::Tensor<1, 2>> &,
+                                 const AlignedArray<dealii::Tensor<1, 2>> &,
+                                 double);
   template double squared_change(const std::vector<NodeMass<2>> &,
-                                 const AlignedArray<NodeVector<2>> &,
-                                 const AlignedArray<NodeVector<2>> &);
+                                 const AlignedArray<dealii::Tensor<1, 2>> &,
+                                 const AlignedArray<dealii::Tensor<1, 2>> &);
   template double kinetic_energy(const std::vector<NodeMass<3>> &,
-                                 const AlignedArray<NodeVector<3>> &,
-                                 const AlignedArray<NodeVector<3>> &, double);
+                                 const AlignedArray<dealii::Tensor<1, 3>> &,
+                                 const AlignedArray<dealii::Tensor<1, 3>> &,
+                                 double);
   template double squared_change(const std::vector<NodeMass<3>> &,
-                                 const AlignedArray<NodeVector<3>> &,
-                                 const AlignedArray<NodeVector<3>> &);
+                                 const AlignedArray<dealii::Tensor<1, 3>> &,
+                                 const AlignedArray<dealii::Tensor<1, 3>> &);
   template double squared_change(const NodeMap<2> &,
                                  const std::vector<double> &,
-                                 const AlignedArray<NodeVector<2>> &,
-                                 const AlignedArray<NodeVector<2>> &);
+                                 const AlignedArray<dealii::Tensor<1, 2>> &,
+                                 const AlignedArray<dealii::Tensor<1, 2>> &);
   template StepContext step_context(const State<3> &, const StageParameters &,
                                     double);
   template double kinetic_energy(const NodeMap<3> &,
                                  const std::vector<double> &,
-                                 const AlignedArray<NodeVector<3>> &,
-                                 const AlignedArray<NodeVector<3>> &, double);
+                                 const AlignedArray<dealii::Tensor<1, 3>> &,
+                                 const AlignedArray<dealii::Tensor<1, 3>> &,
+                                 double);
   template double squared_change(const NodeMap<3> &,
                                  const std::vector<double> &,
-                                 const AlignedArray<NodeVector<3>> &,
-                                 const AlignedArray<NodeVector<3>> &);
+                                 const AlignedArray<dealii::Tensor<1, 3>> &,
+                                 const AlignedArray<dealii::Tensor<1, 3>> &);
 } // namespace quoin

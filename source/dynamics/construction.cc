@@ -147,8 +147,9 @@ namespace quoin
                                     State<dim> &state) const
   {
     const auto &joints = model.joints();
-    AlignedArray<NodeVector<dim>> held(state.nodes.size(), NodeVector<dim>{});
-    AlignedArray<NodeVector<dim>> lost = held; // of excavated joints
+    AlignedArray<dealii::Tensor<1, dim>> held(state.nodes.size(),
+                                              dealii::Tensor<1, dim>());
+    AlignedArray<dealii::Tensor<1, dim>> lost = held; // of excavated joints
     for (unsigned int i = 0; i < joint_faces(joints).size(); ++i)
     {
       if (is_at_absent_block(model, i, state))
@@ -171,8 +172,8 @@ namespace quoin
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         state.energy.external -= 0.5 * state.previous_time_step
-                                 * (held[i].v[d] + lost[i].v[d])
-                                 * state.velocity[i].v[d];
+                                 * (held[i][d] + lost[i][d])
+                                 * state.velocity[i][d];
 
     state.block_marks.resize(model.nodes().table().n_blocks(),
                              block_mark::present);
@@ -187,7 +188,7 @@ namespace quoin
     const auto absent = absent_nodes(model, state);
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        item.force.push_back(absent[i] ? 0. : held[i].v[d]);
+        item.force.push_back(absent[i] ? 0. : held[i][d]);
     for (HeldForces<dim> &earlier :
          state.template get<ConstructionState<dim>>().held)
       for (std::size_t i = 0; i < earlier.force.size(); ++i)

@@ -50,13 +50,13 @@ namespace quoin
       {
         if (reservoirs[r].name() != load)
           continue;
-        const NodeVector<dim> force = stepper.inertia_force(mass);
+        const dealii::Tensor<1, dim> force = stepper.inertia_force(mass);
         for (unsigned int d = 0; d < dim; ++d)
-          sums[d] += force.v[d];
+          sums[d] += force[d];
         if constexpr (dim == 2)
         {
           const dealii::Point<2> p = model.nodes().point(mass.node);
-          sums[2] += p[0] * force.v[1] - p[1] * force.v[0];
+          sums[2] += p[0] * force[1] - p[1] * force[0];
         }
       }
     MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM,
@@ -298,7 +298,8 @@ namespace quoin
   template <int dim>
   void ExplicitSolver<dim>::update_histories(State<dim> &state)
   {
-    AlignedArray<NodeVector<dim>> unused(state.nodes.size(), NodeVector<dim>{});
+    AlignedArray<dealii::Tensor<1, dim>> unused(state.nodes.size(),
+                                                dealii::Tensor<1, dim>());
     if constexpr (dim == 2)
     {
       const StepContext context = step_context(state, stage, time_step);

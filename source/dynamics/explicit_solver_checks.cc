@@ -137,7 +137,8 @@ namespace quoin
     const RigidBlocks &rigid = model.rigid_blocks();
     const auto rigid_0       = state.template get<RigidBlockStates>();
     double energy            = 0.;
-    AlignedArray<NodeVector<dim>> force(state.nodes.size(), NodeVector<dim>{});
+    AlignedArray<dealii::Tensor<1, dim>> force(state.nodes.size(),
+                                               dealii::Tensor<1, dim>());
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
       model.blocks().add_forces(tile, state.nodes.data(),
                                 state.template get<PlasticHistory>(),
@@ -150,9 +151,9 @@ namespace quoin
       for (const unsigned int i : nodes)
         for (unsigned int d = 0; d < dim; ++d)
         {
-          double &v = state.velocity[i].v[d];
+          double &v = state.velocity[i][d];
           if (!is_rigid)
-            energy += 0.5 * (node_mass[i] * v + dt * force[i].v[d]) * v;
+            energy += 0.5 * (node_mass[i] * v + dt * force[i][d]) * v;
           v = 0.;
         }
       if (is_rigid && !nodes.empty())

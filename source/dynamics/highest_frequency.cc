@@ -43,8 +43,8 @@ namespace quoin
       ScaledStiffness(const Model<dim> &model, const std::vector<double> &mass,
                       const RigidBlockStage &rigid_stage)
         : model(model), nodes(model.nodes()), state(model.initial_state()),
-          velocity(nodes.n_local(), NodeVector<dim>{}),
-          force(nodes.n_local(), NodeVector<dim>{})
+          velocity(nodes.n_local(), dealii::Tensor<1, dim>()),
+          force(nodes.n_local(), dealii::Tensor<1, dim>())
       {
         for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
           for (unsigned int d = 0; d < dim; ++d)
@@ -79,10 +79,10 @@ namespace quoin
         for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
         {
           std::uint64_t seed = nodes.block_of_node(i);
-          for (const double x : state.nodes[i].X)
+          for (unsigned int d = 0; d < dim; ++d)
           {
             std::uint64_t bits;
-            std::memcpy(&bits, &x, sizeof(bits));
+            std::memcpy(&bits, &state.nodes[i].X[d], sizeof(bits));
             seed = 0x9e3779b97f4a7c15U * (seed ^ bits ^ (bits >> 31));
           }
           for (unsigned int d = 0; d < dim; ++d)
@@ -101,7 +101,7 @@ namespace quoin
       {
         set_velocities(x);
         nodes.exchange().update_ghosts(velocity.data());
-        std::fill(force.begin(), force.end(), NodeVector<dim>{});
+        std::fill(force.begin(), force.end(), dealii::Tensor<1, dim>());
         // The forces of stiffness-proportional damping with unit coefficient.
         for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
           model.blocks().add_viscous_forces(tile, state.nodes.data(),
@@ -115,9 +115,9 @@ namespace quoin
                ++i)
           {
             const auto [xx, yy, xy] = contacts[i];
-            const auto [vx, vy]     = velocity[i].v;
-            force[i].v[0] -= xx * vx + xy * vy;
-            force[i].v[1] -= xy * vx + yy * vy;
+            const double vx = velocity[i][0], vy = velocity[i][1];
+            force[i][0] -= xx * vx + xy * vy;
+            force[i][1] -= xy * vx + yy * vy;
           }
         return scaled_forces();
       }
@@ -128,15 +128,15 @@ namespace quoin
         unsigned int k = 0;
         for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
           for (unsigned int d = 0; d < dim; ++d, ++k)
-            velocity[i].v[d] = scale[k] * x[k];
+            velocity[i][d] = scale[k] * x[k];
         if constexpr (dim == 2)
           for_each_rigid_node(
               [&](const unsigned int k, const unsigned int i,
                   const std::array<double, 2> &arm)
               {
                 const double spin = scale[k + 2] * x[k + 2];
-                velocity[i].v[0]  = scale[k] * x[k] - spin * arm[1];
-                velocity[i].v[1]  = scale[k + 1] * x[k + 1] + spin * arm[0];
+                velocity[i][0]    = scale[k] * x[k] - spin * arm[1];
+                velocity[i][1]    = scale[k + 1] * x[k + 1] + spin * arm[0];
               });
       }
 
@@ -146,13 +146,13 @@ namespace quoin
         unsigned int k         = 0;
         for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
           for (unsigned int d = 0; d < dim; ++d, ++k)
-            result[k] = -scale[k] * force[i].v[d];
+            result[k] = -scale[k] * force[i][d];
         if constexpr (dim == 2)
           for_each_rigid_node(
               [&](const unsigned int k, const unsigned int i,
                   const std::array<double, 2> &arm)
               {
-                const double *f = force[i].v;
+                const dealii::Tensor<1, 2> &f = force[i];
                 result[k] -= scale[k] * f[0];
                 result[k + 1] -= scale[k + 1] * f[1];
                 result[k + 2] -= scale[k + 2] * (arm[0] * f[1] - arm[1] * f[0]);
@@ -187,7 +187,7 @@ namespace quoin
       const State<dim> state;
       std::vector<double> scale;                /**< 1 / sqrt(mass) */
       std::vector<NodeStiffness<dim>> contacts; /**< contacts; may be empty */
-      AlignedArray<NodeVector<dim>> velocity, force;
+      AlignedArray<dealii::Tensor<1, dim>> velocity, force;
     };
   } // namespace
 

@@ -40,7 +40,7 @@ namespace quoin
           return true;
         for (unsigned int d = 0; d < 2; ++d)
           if (traits.kind == MotionKind::prescribed && traits.holds[d]
-              && state.velocity[i].v[d] != 0.)
+              && state.velocity[i][d] != 0.)
             return true;
       }
       return false;
@@ -88,8 +88,8 @@ namespace quoin
         const NodeRecord<2> &node = state.nodes[i];
         const double x            = node.X[0] + node.u[0] - centre[0];
         const double y            = node.X[1] + node.u[1] - centre[1];
-        state.velocity[i].v[0] += block.velocity[0] - block.spin * y;
-        state.velocity[i].v[1] += block.velocity[1] + block.spin * x;
+        state.velocity[i][0] += block.velocity[0] - block.spin * y;
+        state.velocity[i][1] += block.velocity[1] + block.spin * x;
       }
       if (nodes.table().is_rigid[block.number]
           && nodes.blocks().find(block.number) < nodes.blocks().parts.size())

@@ -17,7 +17,7 @@ namespace quoin
     for (unsigned int i = nodes.n_deformable_nodes();
          i < nodes.n_owned() && moved == NodeMap<dim>::none; ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        if (state.nodes[i].u[d] != 0. || state.velocity[i].v[d] != 0.)
+        if (state.nodes[i].u[d] != 0. || state.velocity[i][d] != 0.)
           moved = i;
     dealii::Point<dim> p;
     if (first_point(nodes, moved, p))
@@ -41,15 +41,15 @@ namespace quoin
     const auto stored = [&](const State<dim> &s) {
       return model.blocks().stored_energy(s) + model.joints().stored_energy(s);
     };
-    AlignedArray<NodeVector<dim>> unused(state.nodes.size(), NodeVector<dim>{});
+    AlignedArray<dealii::Tensor<1, dim>> unused(state.nodes.size(),
+                                                dealii::Tensor<1, dim>());
     model.joints().add_forces(moving.nodes.data(),
                               moving.template get<JointHistoryOf<dim>>(), lost,
                               unused.data());
     double energy = stored(moving) - stored(rest) + lost.friction
                     + lost.fracture + lost.crushing + lost.plastic;
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
-      for (const double v : state.velocity[i].v)
-        energy += 0.5 * model.mass()[i] * v * v;
+      energy += 0.5 * model.mass()[i] * state.velocity[i].norm_square();
     if constexpr (dim == 2)
       for (unsigned int b = 0; b < model.rigid_blocks().n_blocks(); ++b)
       {

@@ -59,7 +59,7 @@ namespace quoin
                        + "'Load pattern' cannot follow blocks that 'Outside "
                          "the box = delete' of section 'Contact' takes away "
                          "with their loads. Take 'report'.");
-    nodal.assign(model.nodes().n_local(), NodeVector<dim>{});
+    nodal.assign(model.nodes().n_local(), dealii::Tensor<1, dim>());
     for (const NodalLoad<dim> &load : loads)
       if (is_among(load.name(), stage.pattern->loads))
       {
@@ -69,11 +69,11 @@ namespace quoin
     const auto absent = absent_nodes(model, state);
     for (unsigned int i = 0; i < nodal.size(); ++i)
       if (absent[i] || i >= model.nodes().n_owned())
-        nodal[i] = NodeVector<dim>{};
+        nodal[i] = dealii::Tensor<1, dim>();
     double size = 0.;
-    for (const NodeVector<dim> &force : nodal)
-      for (const double f : force.v)
-        size += std::abs(f);
+    for (const dealii::Tensor<1, dim> &force : nodal)
+      for (unsigned int d = 0; d < dim; ++d)
+        size += std::abs(force[d]);
     if (dealii::Utilities::MPI::sum(size, model.nodes().communicator()) == 0.)
       throw InputError(where
                        + "the loads of 'Load pattern' are zero, so that no "
@@ -93,14 +93,9 @@ namespace quoin
       for (const unsigned int node : constraint->nodes())
         for (unsigned int d = 0; d < dim; ++d)
           if (constraint->traits().holds[d])
-            free[node].v[d] = 0.;
-    for (const NodeVector<dim> &force : free)
-    {
-      double square = 0.;
-      for (const double f : force.v)
-        square += f * f;
-      scale += std::sqrt(square);
-    }
+            free[node][d] = 0.;
+    for (const dealii::Tensor<1, dim> &force : free)
+      scale += force.norm();
     scale = dealii::Utilities::MPI::sum(scale, model.nodes().communicator());
     if (scale == 0.)
       throw InputError("section 'Stages/" + stage_name
@@ -109,8 +104,8 @@ namespace quoin
                          "free to move.");
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        if (free[i].v[d] != 0.)
-          mean.push_back({ i, d, free[i].v[d] / scale });
+        if (free[i][d] != 0.)
+          mean.push_back({ i, d, free[i][d] / scale });
   }
 
   namespace
@@ -161,9 +156,9 @@ namespace quoin
   std::array<double, dim> LoadPattern<dim>::resultant() const
   {
     std::array<double, dim> sum{};
-    for (const NodeVector<dim> &force : nodal)
+    for (const dealii::Tensor<1, dim> &force : nodal)
       for (unsigned int d = 0; d < dim; ++d)
-        sum[d] += force.v[d];
+        sum[d] += force[d];
     MPI_Allreduce(MPI_IN_PLACE, sum.data(), dim, MPI_DOUBLE, MPI_SUM,
                   model.nodes().communicator());
     return sum;
@@ -194,7 +189,7 @@ namespace quoin
         {
           is_held[node][d] = is_held[node][d] || traits.moves(d);
           moves_platen     = moves_platen
-                         || (traits.is_rigid_body() && nodal[node].v[d] != 0.
+                         || (traits.is_rigid_body() && nodal[node][d] != 0.
                              && !(traits.holds[d] && traits.holds[2]));
         }
     }
@@ -213,7 +208,7 @@ namespace quoin
       bool is_loaded = false;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        node.force[d] = nodal[i].v[d];
+        node.force[d] = nodal[i][d];
         is_loaded     = is_loaded || node.force[d] != 0.;
         if (is_held[i][d] || i >= model.nodes().n_deformable_nodes())
           continue;
@@ -234,19 +229,20 @@ namespace quoin
     for (const LoadedNode &node : loaded)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        forces.force[node.node].v[d] += factor * node.force[d];
-        power_before += node.force[d] * state.velocity[node.node].v[d];
+        forces.force[node.node][d] += factor * node.force[d];
+        power_before += node.force[d] * state.velocity[node.node][d];
       }
   }
 
   template <int dim>
-  double LoadPattern<dim>::external_power(const TimePoint &,
-                                          const NodeVector<dim> *velocity) const
+  double
+  LoadPattern<dim>::external_power(const TimePoint &,
+                                   const dealii::Tensor<1, dim> *velocity) const
   {
     double power = 0.;
     for (const LoadedNode &node : loaded)
       for (unsigned int d = 0; d < dim; ++d)
-        power += node.force[d] * velocity[node.node].v[d];
+        power += node.force[d] * velocity[node.node][d];
     return factor * power;
   }
 
@@ -299,7 +295,7 @@ namespace quoin
       for (unsigned int d = 0; d < dim; ++d)
       {
         const double gained = push * node.gain[d];
-        state.velocity[node.node].v[d] += gained;
+        state.velocity[node.node][d] += gained;
         state.nodes[node.node].u[d] += step.dt * gained;
       }
     if constexpr (dim == 2)

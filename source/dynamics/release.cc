@@ -44,24 +44,24 @@ namespace quoin
 
   template <int dim>
   void Release<dim>::add_loads(const TimePoint &time,
-                               NodeVector<dim> *force) const
+                               dealii::Tensor<1, dim> *force) const
   {
     const double s = share(time.stage);
     for (const NodalForce &item : forces)
       for (unsigned int d = 0; d < dim; ++d)
-        force[item.node].v[d] += item.start[d] + s * item.change[d];
+        force[item.node][d] += item.start[d] + s * item.change[d];
   }
 
   template <int dim>
-  double Release<dim>::external_power(const TimePoint &time,
-                                      const NodeVector<dim> *velocity) const
+  double
+  Release<dim>::external_power(const TimePoint &time,
+                               const dealii::Tensor<1, dim> *velocity) const
   {
     const double s = share(time.stage);
     double result  = 0.;
     for (const NodalForce &item : forces)
       for (unsigned int d = 0; d < dim; ++d)
-        result
-            += (item.start[d] + s * item.change[d]) * velocity[item.node].v[d];
+        result += (item.start[d] + s * item.change[d]) * velocity[item.node][d];
     return result;
   }
 

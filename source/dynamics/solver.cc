@@ -407,9 +407,8 @@ namespace quoin
     unsigned int bad     = NodeMap<dim>::none;
     const unsigned int n = model.nodes().n_owned();
     for (unsigned int i = 0; i < n && bad == NodeMap<dim>::none; ++i)
-      for (const double u : state.nodes[i].u)
-        if (!(std::abs(u) < 1e100)) // a comparison with NaN is false
-          bad = i;
+      if (!(state.nodes[i].u.norm() < 1e100)) // a comparison with NaN is false
+        bad = i;
     dealii::Point<dim> p;
     unsigned int block = 0;
     if (!first_point(model.nodes(), bad, p, &block))

@@ -337,9 +337,7 @@ namespace quoin
     double largest = -1.; // squared [m^2]
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
     {
-      double square = 0.;
-      for (const double u : state.nodes[i].u)
-        square += u * u;
+      const double square = state.nodes[i].u.norm_square();
       if (square <= largest || state.is_absent(nodes.block_of_node(i)))
         continue;
       largest        = square;
@@ -350,7 +348,7 @@ namespace quoin
         const auto &[X, u] = state.nodes[i];
         farthest.before[d] = X[d];
         farthest.now[d]    = X[d] + u[d];
-        farthest.speed += state.velocity[i].v[d] * u[d];
+        farthest.speed += state.velocity[i][d] * u[d];
       }
     }
     farthest.distance = std::sqrt(std::max(largest, 0.));

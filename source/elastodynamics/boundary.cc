@@ -22,13 +22,13 @@ namespace quoin
     double square = 0.;
     for (const BoundaryElement &e : elements)
       for (const BoundaryElement &f : elements)
-        square = std::max({ square, (e.a - f.a).squaredNorm(),
-                            (e.a - f.b).squaredNorm(),
-                            (e.b - f.b).squaredNorm() });
+        square = std::max({ square, (e.a - f.a).norm_square(),
+                            (e.a - f.b).norm_square(),
+                            (e.b - f.b).norm_square() });
     return std::sqrt(square);
   }
 
-  void Boundary::add_curve(const std::vector<Eigen::Vector2d> &points,
+  void Boundary::add_curve(const std::vector<dealii::Point<2>> &points,
                            const bool closed)
   {
     for (std::size_t k = 0; k + 1 < points.size(); ++k)
@@ -37,14 +37,14 @@ namespace quoin
       elements.push_back({ points.back(), points.front() });
   }
 
-  Boundary Boundary::polygon(const std::vector<Eigen::Vector2d> &vertices,
+  Boundary Boundary::polygon(const std::vector<dealii::Point<2>> &vertices,
                              const double element_length, const bool exterior)
   {
-    std::vector<Eigen::Vector2d> points;
+    std::vector<dealii::Point<2>> points;
     for (std::size_t k = 0; k < vertices.size(); ++k)
     {
-      const Eigen::Vector2d &a = vertices[k];
-      const Eigen::Vector2d &b = vertices[(k + 1) % vertices.size()];
+      const dealii::Point<2> &a = vertices[k];
+      const dealii::Point<2> &b = vertices[(k + 1) % vertices.size()];
       // The small reduction keeps a quotient that should be whole from
       // rounding up.
       const double quotient = (b - a).norm() / element_length;
@@ -59,15 +59,15 @@ namespace quoin
     return boundary;
   }
 
-  Boundary Boundary::circle(const Eigen::Vector2d &centre, const double radius,
+  Boundary Boundary::circle(const dealii::Point<2> &centre, const double radius,
                             const unsigned n, const bool exterior)
   {
-    std::vector<Eigen::Vector2d> points(n);
+    std::vector<dealii::Point<2>> points(n);
     for (unsigned k = 0; k < n; ++k)
     {
       const double angle = (exterior ? -2. : 2.) * constants::pi * k / n;
-      points[k]
-          = centre + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      points[k]          = centre
+                  + radius * dealii::Point<2>(std::cos(angle), std::sin(angle));
     }
     Boundary boundary;
     boundary.add_curve(points, true);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/base/constants.h>
 #include <quoin/elastodynamics/cut_kernels.h>
 #include <quoin/elastodynamics/gauss_legendre.h>
@@ -106,26 +107,26 @@ namespace quoin
         const BoundaryElement &f = boundary.elements[columns.begin + l];
         const GaussRule &outer
             = projection == Projection::galerkin ? rule_for(e) : middle;
-        const GaussRule &inner  = rule_for(f);
-        const Eigen::Vector2d n = f.normal();
+        const GaussRule &inner       = rule_for(f);
+        const dealii::Tensor<1, 2> n = f.normal();
         Eigen::Matrix2d U = Eigen::Matrix2d::Zero(), P = U;
         for (std::size_t a = 0; a < outer.points.size(); ++a)
           for (std::size_t b = 0; b < inner.points.size(); ++b)
           {
-            const Eigen::Vector2d d = f.a + inner.points[b] * (f.b - f.a) - e.a
-                                      - outer.points[a] * (e.b - e.a);
+            const dealii::Tensor<1, 2> d = f.a + inner.points[b] * (f.b - f.a)
+                                           - e.a
+                                           - outer.points[a] * (e.b - e.a);
             const double r       = d.norm();
             const double w       = outer.weights[a] * inner.weights[b];
             const Radial terms   = radial(r);
             const double inverse = r > 0. ? 1. / (r * r) : 0.;
-            const Eigen::Matrix2d square_d = d * d.transpose() * inverse;
-            const double dn                = d.dot(n);
+            const Eigen::Matrix2d square_d = dyad(d, d) * inverse;
+            const double dn                = d * n;
             U.diagonal().array() += w * terms.u_delta;
             U += w * terms.u_rr * square_d;
             P.diagonal().array() += w * terms.p_sum * dn;
             P += w
-                 * (terms.p_sum * d * n.transpose()
-                    + terms.p_nr * n * d.transpose()
+                 * (terms.p_sum * dyad(d, n) + terms.p_nr * dyad(n, d)
                     + terms.p_rrn * dn * square_d);
           }
         // Row: direction of the force; column: component on the element.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/elastodynamics/laplace_kernels.h>
 
 #include <quoin/base/constants.h>
@@ -54,24 +55,22 @@ namespace quoin
     return radial;
   }
 
-  Eigen::Matrix2cd LaplaceKernels::displacement(const Eigen::Vector2d &d) const
+  Eigen::Matrix2cd LaplaceKernels::displacement(const dealii::Point<2> &d) const
   {
-    const double r          = d.norm();
-    const Eigen::Vector2d e = d / r;
-    const Radial f          = radial(r);
-    return f.u_delta * Eigen::Matrix2d::Identity()
-           + f.u_rr * (e * e.transpose());
+    const double r               = d.norm();
+    const dealii::Tensor<1, 2> e = d / r;
+    const Radial f               = radial(r);
+    return f.u_delta * Eigen::Matrix2d::Identity() + f.u_rr * dyad(e, e);
   }
 
-  Eigen::Matrix2cd LaplaceKernels::traction(const Eigen::Vector2d &d,
-                                            const Eigen::Vector2d &n) const
+  Eigen::Matrix2cd LaplaceKernels::traction(const dealii::Point<2> &d,
+                                            const dealii::Tensor<1, 2> &n) const
   {
-    const double r          = d.norm();
-    const Eigen::Vector2d e = d / r;
-    const double rn         = e.dot(n);
-    const Radial f          = radial(r);
-    return f.p_sum * (rn * Eigen::Matrix2d::Identity() + e * n.transpose())
-           + f.p_nr * (n * e.transpose())
-           + (f.p_rrn * rn) * (e * e.transpose());
+    const double r               = d.norm();
+    const dealii::Tensor<1, 2> e = d / r;
+    const double rn              = e * n;
+    const Radial f               = radial(r);
+    return f.p_sum * (rn * Eigen::Matrix2d::Identity() + dyad(e, n))
+           + f.p_nr * dyad(n, e) + (f.p_rrn * rn) * dyad(e, e);
   }
 } // namespace quoin

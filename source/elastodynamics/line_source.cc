@@ -14,7 +14,7 @@ namespace quoin
   using constants::pi;
 
   LineSource::LineSource(const ElasticMedium &medium,
-                         const Eigen::Vector2d &position,
+                         const dealii::Point<2> &position,
                          const std::function<double(double)> &moment,
                          const SignalRange &range)
     : medium(medium), position(position)
@@ -45,13 +45,13 @@ namespace quoin
     }
   }
 
-  Eigen::Vector2d LineSource::displacement(const Eigen::Vector2d &x,
-                                           const double t) const
+  dealii::Tensor<1, 2> LineSource::displacement(const dealii::Point<2> &x,
+                                                const double t) const
   {
-    const Eigen::Vector2d from = x - position;
-    const double r             = from.norm();
-    const double travel        = r / medium.c1;
-    double sum                 = 0.;
+    const dealii::Tensor<1, 2> from = x - position;
+    const double r                  = from.norm();
+    const double travel             = r / medium.c1;
+    double sum                      = 0.;
     for (const Knot &knot : knots)
     {
       const double age = t - knot.time;
@@ -63,14 +63,14 @@ namespace quoin
            * from;
   }
 
-  Eigen::Vector2d LineSource::mean_traction(const Eigen::Vector2d &x,
-                                            const Eigen::Vector2d &n,
-                                            const double t0,
-                                            const double t1) const
+  dealii::Tensor<1, 2> LineSource::mean_traction(const dealii::Point<2> &x,
+                                                 const dealii::Tensor<1, 2> &n,
+                                                 const double t0,
+                                                 const double t1) const
   {
-    const Eigen::Vector2d from = x - position;
-    const double r             = from.norm();
-    const double travel        = r / medium.c1;
+    const dealii::Tensor<1, 2> from = x - position;
+    const double r                  = from.norm();
+    const double travel             = r / medium.c1;
     // Of S and of 1/S, integrated over time. Differences are taken knot by
     // knot, since sums grow with the square of time.
     double of_root = 0., of_inverse = 0.;
@@ -89,11 +89,11 @@ namespace quoin
     }
     const double factor
         = 1. / (2. * pi * medium.density * medium.c1 * medium.c1 * (t1 - t0));
-    const double hoop       = factor * of_root / (r * r);
-    const double volume     = -factor * of_inverse / (medium.c1 * medium.c1);
-    const double radial     = volume - hoop;
-    const Eigen::Vector2d e = from / r;
-    const double en         = e.dot(n);
+    const double hoop   = factor * of_root / (r * r);
+    const double volume = -factor * of_inverse / (medium.c1 * medium.c1);
+    const double radial = volume - hoop;
+    const dealii::Tensor<1, 2> e = from / r;
+    const double en              = e * n;
     return medium.lambda() * volume * n
            + 2. * medium.mu() * (radial * en * e + hoop * (n - en * e));
   }

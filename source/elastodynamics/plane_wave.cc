@@ -24,8 +24,8 @@ namespace quoin
     const double speed     = is_p ? c1 : c2;
     const double sine      = std::sin(angle);
     const double cosine    = std::cos(angle);
-    const auto along       = Eigen::Vector2d(sine, cosine);
-    const auto transversal = Eigen::Vector2d(cosine, -sine);
+    const auto along       = Eigen::Vector2cd(sine, cosine);
+    const auto transversal = Eigen::Vector2cd(cosine, -sine);
     std::vector<Component> waves{ { is_p ? along : transversal,
                                     along / speed } };
     if (half_plane)

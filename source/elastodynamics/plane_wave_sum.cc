@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/elastodynamics/plane_wave_sum.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace quoin
     /** Traction by rate of the signal: the displacement gradient is -A s F'. */
     template <typename Vector>
     Vector traction(const ElasticMedium &medium, const Vector &amplitude,
-                    const Vector &slowness, const Eigen::Vector2d &n)
+                    const Vector &slowness, const Vector &n)
     {
       return -(medium.lambda() * product(amplitude, slowness) * n
                + medium.mu()
@@ -50,43 +51,45 @@ namespace quoin
     return signal != nullptr;
   }
 
-  Eigen::Vector2d PlaneWaveSum::displacement(const Eigen::Vector2d &x,
-                                             const double t) const
+  dealii::Tensor<1, 2> PlaneWaveSum::displacement(const dealii::Point<2> &x,
+                                                  const double t) const
   {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    dealii::Tensor<1, 2> sum;
     for (const Component &wave : waves)
       if (wave.is_real())
-        sum += wave.amplitude.real() * f(t - wave.slowness.real().dot(x));
+        sum += f(t - to_tensor(wave.slowness.real()) * x)
+               * to_tensor(wave.amplitude.real());
       else
-        sum += (wave.amplitude * (*signal)(t - product(wave.slowness, x)))
-                   .real();
+        sum += to_tensor(
+            (wave.amplitude * (*signal)(t - product(wave.slowness, x))).real());
     return sum;
   }
 
-  Eigen::Vector2d PlaneWaveSum::mean_traction(const Eigen::Vector2d &x,
-                                              const Eigen::Vector2d &n,
-                                              const double t0,
-                                              const double t1) const
+  dealii::Tensor<1, 2>
+  PlaneWaveSum::mean_traction(const dealii::Point<2> &x,
+                              const dealii::Tensor<1, 2> &n, const double t0,
+                              const double t1) const
   {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    dealii::Tensor<1, 2> sum;
     for (const Component &wave : waves)
       if (wave.is_real())
       {
-        const Eigen::Vector2d d = wave.amplitude.real();
-        const Eigen::Vector2d s = wave.slowness.real();
-        const double delay      = s.dot(x);
-        const double rate       = (f(t1 - delay) - f(t0 - delay)) / (t1 - t0);
-        sum += rate * traction<Eigen::Vector2d>(medium, d, s, n);
+        const auto d       = to_tensor(wave.amplitude.real());
+        const auto s       = to_tensor(wave.slowness.real());
+        const double delay = s * x;
+        const double rate  = (f(t1 - delay) - f(t0 - delay)) / (t1 - t0);
+        sum += rate * traction(medium, d, s, n);
       }
       else
       {
         const std::complex<double> delay = product(wave.slowness, x);
         const std::complex<double> rate
             = ((*signal)(t1 - delay) - (*signal)(t0 - delay)) / (t1 - t0);
-        sum += (rate
-                * traction<Eigen::Vector2cd>(medium, wave.amplitude,
-                                             wave.slowness, n))
-                   .real();
+        sum += to_tensor(
+            (rate
+             * traction<Eigen::Vector2cd>(medium, wave.amplitude, wave.slowness,
+                                          to_eigen(n)))
+                .real());
       }
     return sum;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/elastodynamics/static_kernels.h>
 
 #include <quoin/base/constants.h>
@@ -19,9 +20,9 @@ namespace quoin
 
     using constants::pi;
 
-    Complex to_complex(const Eigen::Vector2d &v)
+    Complex to_complex(const dealii::Tensor<1, 2> &v)
     {
-      return { v.x(), v.y() };
+      return { v[0], v[1] };
     }
 
     /**
@@ -76,7 +77,7 @@ namespace quoin
     }
 
     /** Integrals over y on @p f, for @p x that is not on it. */
-    Terms integrate(const Eigen::Vector2d &x, const BoundaryElement &f)
+    Terms integrate(const dealii::Point<2> &x, const BoundaryElement &f)
     {
       const Complex t      = to_complex(f.tangent());
       const Complex middle = to_complex(f.middle() - x);
@@ -110,9 +111,9 @@ namespace quoin
       const double mean = 1. / e.length();
       // Common ends must be exactly that.
       const auto difference
-          = [&](const Eigen::Vector2d &y, const Eigen::Vector2d &x)
+          = [&](const dealii::Point<2> &y, const dealii::Point<2> &x)
       {
-        const Eigen::Vector2d d = y - x;
+        const dealii::Tensor<1, 2> d = y - x;
         return d.norm() < 1e-14 * (x.norm() + y.norm()) ? Complex(0.)
                                                         : to_complex(d);
       };
@@ -175,13 +176,13 @@ namespace quoin
   } // namespace
 
   Eigen::Matrix2d static_displacement_kernel(const ElasticMedium &medium,
-                                             const Eigen::Vector2d &d,
+                                             const dealii::Point<2> &d,
                                              const double reference_length)
   {
     const double nu = medium.poisson(), r = d.norm();
     return (-(3. - 4. * nu) * std::log(r / reference_length)
                 * Eigen::Matrix2d::Identity()
-            + d * d.transpose() / (r * r))
+            + dyad(d, d) / (r * r))
            / (8. * pi * medium.mu() * (1. - nu));
   }
 
@@ -215,7 +216,7 @@ namespace quoin
 
   StaticMatrices static_point_matrices(const Boundary &boundary,
                                        const ElasticMedium &medium,
-                                       const Eigen::Vector2d &x,
+                                       const dealii::Point<2> &x,
                                        const double reference_length)
   {
     const unsigned n = unsigned(boundary.n_elements());

@@ -22,18 +22,17 @@ namespace quoin
   {
     using constants::pi;
 
-    using Eigen::Vector2d;
-    using Points = std::vector<Vector2d>;
+    using Points = std::vector<dealii::Point<2>>;
 
     [[noreturn]] void fail(const std::string &name, const std::string &why)
     {
       throw InputError("section 'Boundary elements/" + name + "': " + why);
     }
 
-    std::string text(const Vector2d &point)
+    std::string text(const dealii::Point<2> &point)
     {
       std::ostringstream stream;
-      stream << "(" << point.x() << ", " << point.y() << ")";
+      stream << "(" << point[0] << ", " << point[1] << ")";
       return stream.str();
     }
 
@@ -47,7 +46,7 @@ namespace quoin
       {
         return closed ? points.size() : points.size() - 1;
       }
-      const Vector2d &end(const std::size_t edge) const
+      const dealii::Tensor<1, 2> &end(const std::size_t edge) const
       {
         return points[(edge + 1) % points.size()];
       }
@@ -59,7 +58,7 @@ namespace quoin
       {
         double twice = 0.;
         for (std::size_t k = 0; k < points.size(); ++k)
-          twice += points[k].x() * end(k).y() - points[k].y() * end(k).x();
+          twice += points[k][0] * end(k)[1] - points[k][1] * end(k)[0];
         return 0.5 * twice;
       }
     };
@@ -198,8 +197,8 @@ namespace quoin
       {
         const double angle = parameters.angles[0] + 2. * pi * k / n;
         curve.points.push_back(
-            Vector2d(parameters.centre[0], parameters.centre[1])
-            + radius * Vector2d(std::cos(angle), std::sin(angle)));
+            dealii::Point<2>(parameters.centre[0], parameters.centre[1])
+            + radius * dealii::Point<2>(std::cos(angle), std::sin(angle)));
       }
       return curve;
     }
@@ -215,8 +214,9 @@ namespace quoin
       {
         const double angle = from + s * span;
         curve.points.push_back(
-            Vector2d(parameters.centre[0], parameters.centre[1])
-            + parameters.radius * Vector2d(std::cos(angle), std::sin(angle)));
+            dealii::Point<2>(parameters.centre[0], parameters.centre[1])
+            + parameters.radius
+                  * dealii::Point<2>(std::cos(angle), std::sin(angle)));
       }
       return curve;
     }
@@ -313,7 +313,7 @@ namespace quoin
         for (const unsigned int v : edges[e])
           edges_of[v].push_back(e);
       const auto position = [&](const unsigned int v)
-      { return Vector2d(mesh.vertices[v][0], mesh.vertices[v][1]); };
+      { return dealii::Point<2>(mesh.vertices[v][0], mesh.vertices[v][1]); };
       std::vector<unsigned int> ends;
       for (const auto &[v, list] : edges_of)
         if (list.size() > 2)
@@ -351,12 +351,13 @@ namespace quoin
       result.closed = curve.closed;
       for (std::size_t k = 0; k < n; ++k)
       {
-        const bool is_end     = !curve.closed && (k == 0 || k + 1 == n);
-        const Vector2d before = curve.points[k] - curve.points[(k + n - 1) % n];
-        const Vector2d after  = curve.end(k) - curve.points[k];
-        const double sine = (before.x() * after.y() - before.y() * after.x())
+        const bool is_end = !curve.closed && (k == 0 || k + 1 == n);
+        const dealii::Tensor<1, 2> before
+            = curve.points[k] - curve.points[(k + n - 1) % n];
+        const dealii::Tensor<1, 2> after = curve.end(k) - curve.points[k];
+        const double sine = (before[0] * after[1] - before[1] * after[0])
                             / (before.norm() * after.norm());
-        if (is_end || std::abs(sine) > 1e-6 || before.dot(after) < 0.)
+        if (is_end || std::abs(sine) > 1e-6 || before * after < 0.)
           result.points.push_back(curve.points[k]);
       }
       return result;
@@ -384,9 +385,10 @@ namespace quoin
       {
         if (!curve.closed && (k == 0 || k + 1 == n))
           return true;
-        const Vector2d before = curve.points[k] - curve.points[(k + n - 1) % n];
-        const Vector2d after  = curve.end(k) - curve.points[k];
-        return before.dot(after) < corner * before.norm() * after.norm();
+        const dealii::Tensor<1, 2> before
+            = curve.points[k] - curve.points[(k + n - 1) % n];
+        const dealii::Tensor<1, 2> after = curve.end(k) - curve.points[k];
+        return before * after < corner * before.norm() * after.norm();
       };
       std::size_t first = 0;
       while (first + 1 < n && !is_corner(first))
@@ -454,7 +456,7 @@ namespace quoin
           curve.points.emplace_back(point[0], point[1]);
         if (!curve.closed && parameters.grading != 1.)
         {
-          const Vector2d a = curve.points[0], b = curve.points[1];
+          const dealii::Point<2> a = curve.points[0], b = curve.points[1];
           curve.points.clear();
           for (const double s : graded(parameters, (b - a).norm(), length))
             curve.points.push_back((1. - s) * a + s * b);
@@ -497,11 +499,6 @@ namespace quoin
       return curve;
     }
 
-    double cross(const Vector2d &a, const Vector2d &b)
-    {
-      return a.x() * b.y() - a.y() * b.x();
-    }
-
     void check_elements(const BoundaryGeometry &geometry,
                         const BoundaryElementParameters &parameters)
     {
@@ -526,8 +523,8 @@ namespace quoin
           if (in_line && !(E.b == F.a && E.a == F.b))
           {
             // Neighbours: they must not lie on each other.
-            const Vector2d turned = E.b == F.a ? F.b : F.a;
-            const Vector2d other  = E.b == F.a ? E.a : E.b;
+            const dealii::Point<2> turned = E.b == F.a ? F.b : F.a;
+            const dealii::Point<2> other  = E.b == F.a ? E.a : E.b;
             const double reach = std::min(distance_to_segment(turned, E.a, E.b),
                                           distance_to_segment(other, F.a, F.b));
             if (reach > 1e-6 * std::min(E.length(), F.length()))
@@ -576,21 +573,21 @@ namespace quoin
     }
   } // namespace
 
-  bool segments_meet(const Vector2d &a, const Vector2d &b, const Vector2d &c,
-                     const Vector2d &d)
+  bool segments_meet(const dealii::Point<2> &a, const dealii::Point<2> &b,
+                     const dealii::Point<2> &c, const dealii::Point<2> &d)
   {
     return cross(b - a, c - a) * cross(b - a, d - a) <= 0.
            && cross(d - c, a - c) * cross(d - c, b - c) <= 0.
-           && std::max(std::min(a.x(), b.x()), std::min(c.x(), d.x()))
-                  <= std::min(std::max(a.x(), b.x()), std::max(c.x(), d.x()))
-           && std::max(std::min(a.y(), b.y()), std::min(c.y(), d.y()))
-                  <= std::min(std::max(a.y(), b.y()), std::max(c.y(), d.y()));
+           && std::max(std::min(a[0], b[0]), std::min(c[0], d[0]))
+                  <= std::min(std::max(a[0], b[0]), std::max(c[0], d[0]))
+           && std::max(std::min(a[1], b[1]), std::min(c[1], d[1]))
+                  <= std::min(std::max(a[1], b[1]), std::max(c[1], d[1]));
   }
 
-  std::vector<Eigen::Vector2d>
+  std::vector<dealii::Point<2>>
   BoundaryGeometry::middles(const unsigned int k) const
   {
-    std::vector<Eigen::Vector2d> result;
+    std::vector<dealii::Point<2>> result;
     for (unsigned int e = 0; e < owner.size(); ++e)
       if (owner[e] == k)
         result.push_back(boundary.elements[e].middle());
@@ -602,16 +599,18 @@ namespace quoin
                          const MeshData<2> &mesh)
   {
     std::vector<Curve> curves;
-    Vector2d low  = Vector2d::Constant(std::numeric_limits<double>::max());
-    Vector2d high = -low;
+    dealii::Point<2> low, high;
+    low[0] = low[1] = std::numeric_limits<double>::max();
+    high            = -low;
     for (const BoundaryCurveParameters &curve : parameters.boundaries)
     {
       curves.push_back(make_curve(curve, parameters.element_length, mesh));
-      for (const Vector2d &point : curves.back().points)
-      {
-        low  = low.cwiseMin(point);
-        high = high.cwiseMax(point);
-      }
+      for (const dealii::Point<2> &point : curves.back().points)
+        for (unsigned int d = 0; d < point.dimension; ++d)
+        {
+          low[d]  = std::min(low[d], point[d]);
+          high[d] = std::max(high[d], point[d]);
+        }
     }
 
     // Ends that meet must be the same point to the last bit.
@@ -619,11 +618,12 @@ namespace quoin
     Points ends;
     for (Curve &curve : curves)
       if (!curve.closed)
-        for (Vector2d *end : { &curve.points.front(), &curve.points.back() })
+        for (dealii::Point<2> *end :
+             { &curve.points.front(), &curve.points.back() })
         {
           const auto known
               = std::find_if(ends.begin(), ends.end(),
-                             [&](const Vector2d &other)
+                             [&](const dealii::Point<2> &other)
                              { return (other - *end).norm() < tolerance; });
           if (known == ends.end())
             ends.push_back(*end);
@@ -650,7 +650,7 @@ namespace quoin
   }
 
   NearestElement nearest_element(const Boundary &boundary,
-                                 const Vector2d &point)
+                                 const dealii::Point<2> &point)
   {
     NearestElement nearest;
     nearest.distance = std::numeric_limits<double>::max();
@@ -659,7 +659,7 @@ namespace quoin
     {
       const BoundaryElement &element = boundary.elements[e];
       const double distance = distance_to_segment(point, element.a, element.b);
-      const double above    = -element.normal().dot(point - element.a);
+      const double above    = -(element.normal() * (point - element.a));
       const double slack    = 1e-9 * element.length();
       // Of two elements whose common end is nearest, the one that the point
       // is farther off is certain to be on one side.

@@ -41,7 +41,7 @@ namespace quoin
 
     /** Smallest and largest value in the middle of elements. */
     std::array<double, 2> range_on(const SpaceTimeFunction &function,
-                                   const std::vector<Eigen::Vector2d> &middles,
+                                   const std::vector<dealii::Point<2>> &middles,
                                    const double duration)
     {
       std::vector<double> values;
@@ -58,7 +58,7 @@ namespace quoin
 
     /** In the middle of some elements. */
     double frequency_on(const GivenValues &values,
-                        const std::vector<Eigen::Vector2d> &middles,
+                        const std::vector<dealii::Point<2>> &middles,
                         const double duration)
     {
       constexpr std::size_t most_places = 8;
@@ -70,7 +70,7 @@ namespace quoin
           middles.size(), function.depends_on_place() ? most_places : 1);
       for (std::size_t i = 0; i < n; ++i)
       {
-        const Eigen::Vector2d &x = middles[i * middles.size() / n];
+        const dealii::Point<2> &x = middles[i * middles.size() / n];
         highest
             = std::max(highest, velocity_frequency([&](const double t)
                                                    { return function(x, t); },

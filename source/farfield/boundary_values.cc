@@ -46,7 +46,7 @@ namespace quoin
       return;
     means.are_final                   = !means.function->depends_on_time();
     const SpaceTimeFunction &function = *means.function;
-    const auto mean_at                = [&](const Eigen::Vector2d &x)
+    const auto mean_at                = [&](const dealii::Point<2> &x)
     {
       if (!mean_in_time || means.are_final)
         return function(x, end);
@@ -59,8 +59,7 @@ namespace quoin
     };
     if (!function.depends_on_place())
     {
-      means.values.assign(means.values.size(),
-                          mean_at(Eigen::Vector2d::Zero()));
+      means.values.assign(means.values.size(), mean_at(dealii::Point<2>()));
       return;
     }
     const GaussRule &rule = gauss_legendre(3);
@@ -97,8 +96,9 @@ namespace quoin
         update(means[k][i], k, begin, end, mean && (i == 2 || given[i]));
       for (unsigned int j = 0; j < elements[k].size(); ++j)
       {
-        const unsigned int e         = elements[k][j];
-        const Eigen::Vector2d normal = geometry.boundary.elements[e].normal();
+        const unsigned int e = elements[k][j];
+        const dealii::Tensor<1, 2> normal
+            = geometry.boundary.elements[e].normal();
         for (unsigned int i = 0; i < 2; ++i)
         {
           double &value = result[2 * e + i];

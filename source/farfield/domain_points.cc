@@ -10,7 +10,6 @@
 
 namespace quoin
 {
-  using Eigen::Vector2d;
 
   DomainPoints make_domain_points(const SampledFieldParameters &field,
                                   const Boundary &boundary)
@@ -28,8 +27,8 @@ namespace quoin
     for (unsigned int j = 0; j < ny; ++j)
       for (unsigned int i = 0; i < nx; ++i)
       {
-        const Vector2d x(field.box[0] + i * field.spacing,
-                         field.box[1] + j * field.spacing);
+        const dealii::Point<2> x(field.box[0] + i * field.spacing,
+                                 field.box[1] + j * field.spacing);
         const NearestElement nearest = nearest_element(boundary, x);
         if (!nearest.inside_domain
             || nearest.distance

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/farfield/far_field.h>
@@ -148,16 +149,11 @@ namespace quoin
     far                = FarFieldState();
     far.active         = true;
     for (const unsigned int c : captured_positions)
-      for (unsigned int d = 0; d < 2; ++d)
-        far.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
+      append_vector(far.held, captured[c].begun - captured[c].force);
     VectorXd values;
-    transfer.gather(
-        [&](const unsigned int k)
-        {
-          const auto &u = captured[captured_positions[k]].displacement.v;
-          return std::array<double, 2>{ { u[0], u[1] } };
-        },
-        values);
+    transfer.gather([&](const unsigned int k)
+                    { return captured[captured_positions[k]].displacement; },
+                    values);
     far.origin      = to_vector(values);
     const auto none = std::vector<double>(unknowns.size(), 0.);
     far.last_motion = far.frozen = far.velocity_sum = far.traction_sum = none;
@@ -308,19 +304,11 @@ namespace quoin
     { return captured[captured_positions[k]]; };
     const auto free_velocity = [&](const unsigned int k)
     {
-      std::array<double, 2> v{};
-      for (unsigned int d = 0; d < 2; ++d)
-        v[d] = (1. - a) / (1. + a) * node(k).velocity.v[d]
-               + gain[k] * (node(k).force.v[d] + far.held[2 * k + d]);
-      return v;
+      return (1. - a) / (1. + a) * node(k).velocity
+             + gain[k] * (node(k).force + vector_at(far.held, k));
     };
-    transfer.gather(
-        [&](const unsigned int k)
-        {
-          return std::array<double, 2>{ { node(k).velocity.v[0],
-                                          node(k).velocity.v[1] } };
-        },
-        v_before);
+    transfer.gather([&](const unsigned int k) { return node(k).velocity; },
+                    v_before);
     transfer.gather(free_velocity, v_free);
     if (!staggered)
     {
@@ -334,12 +322,7 @@ namespace quoin
     else
     {
       transfer.gather(
-          [&](const unsigned int k)
-          {
-            return std::array<double, 2>{ { node(k).displacement.v[0],
-                                            node(k).displacement.v[1] } };
-          },
-          last_u);
+          [&](const unsigned int k) { return node(k).displacement; }, last_u);
       last_u -= to_eigen(far.origin);
       p = frozen;
       if (!from_rest)
@@ -355,10 +338,9 @@ namespace quoin
       const auto force = transfer.force(k, p);
       for (unsigned int d = 0; d < 2; ++d)
       {
-        const double v1 = v[d] - gain[k] * thickness * force[d];
-        state.velocity[node(k).node].v[d] = v1;
-        state.nodes[node(k).node].u[d]
-            = node(k).displacement.v[d] + step.dt * v1;
+        const double v1                 = v[d] - gain[k] * thickness * force[d];
+        state.velocity[node(k).node][d] = v1;
+        state.nodes[node(k).node].u[d] = node(k).displacement[d] + step.dt * v1;
       }
     }
   }
@@ -373,13 +355,13 @@ namespace quoin
     {
       const CapturedNode<2> &before = captured[captured_positions[k]];
       const auto traction           = transfer.force(k, p);
-      double reaction[2]            = { 0., 0. };
-      for (unsigned int d = 0; d < 2; ++d)
+      dealii::Tensor<1, 2> reaction;
+      for (unsigned int d = 0; d < reaction.dimension; ++d)
       {
         if (before.owner[d] != this)
           continue;
-        const double v0    = before.velocity.v[d];
-        const double v1    = state.velocity[before.node].v[d];
+        const double v0    = before.velocity[d];
+        const double v1    = state.velocity[before.node][d];
         const double force = far.held[2 * k + d] - thickness * traction[d];
         const double rayleigh
             = step.mass_damping * before.mass * 0.5 * (v0 + v1);

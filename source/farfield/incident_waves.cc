@@ -17,14 +17,13 @@ namespace quoin
 {
   namespace
   {
-    using Eigen::Vector2d;
     using Eigen::VectorXd;
   } // namespace
 
   IncidentWaves::IncidentWaves(const BoundaryElementParameters &settings,
                                const ElasticMedium &medium,
                                const Boundary &boundary,
-                               const std::vector<Vector2d> &points,
+                               const std::vector<dealii::Point<2>> &points,
                                const double duration, const double time_step)
     : boundary(boundary),
       tractions_at_end(settings.formulation
@@ -35,7 +34,7 @@ namespace quoin
     double reach = 0.;
     for (const BoundaryElement &element : boundary.elements)
       reach = std::max({ reach, element.a.norm(), element.b.norm() });
-    for (const Vector2d &x : points)
+    for (const dealii::Point<2> &x : points)
       reach = std::max(reach, x.norm());
     const double delay = reach / (0.85 * medium.c2);
     // Tractions of convolution quadrature are needed half a step later.
@@ -67,8 +66,8 @@ namespace quoin
           break;
         case Type::line_source:
           waves.push_back(std::make_unique<LineSource>(
-              medium, Vector2d(wave.position[0], wave.position[1]), signal,
-              SignalRange{ 0., end, 0.25 * time_step }));
+              medium, dealii::Point<2>(wave.position[0], wave.position[1]),
+              signal, SignalRange{ 0., end, 0.25 * time_step }));
           break;
         }
       }
@@ -84,15 +83,16 @@ namespace quoin
     }
   }
 
-  void IncidentWaves::check_place(const IncidentWaveParameters &wave,
-                                  const std::vector<Vector2d> &points) const
+  void
+  IncidentWaves::check_place(const IncidentWaveParameters &wave,
+                             const std::vector<dealii::Point<2>> &points) const
   {
     const std::string section = "section 'Incident waves/" + wave.name + "': ";
     if (wave.half_plane)
       for (const BoundaryElement &element : boundary.elements)
       {
         const double slack = 1e-9 * element.length();
-        if (element.a.y() > slack || element.b.y() > slack)
+        if (element.a[1] > slack || element.b[1] > slack)
           throw InputError(section
                            + "'Space = half-plane' is the medium below y = "
                              "0, but the boundary comes above it. Move it "
@@ -100,9 +100,9 @@ namespace quoin
       }
     if (wave.type != IncidentWaveType::line_source)
       return;
-    const Vector2d source(wave.position[0], wave.position[1]);
-    const std::string position = "'Position = " + number_text(source.x()) + ", "
-                                 + number_text(source.y()) + "'";
+    const dealii::Point<2> source(wave.position[0], wave.position[1]);
+    const std::string position = "'Position = " + number_text(source[0]) + ", "
+                                 + number_text(source[1]) + "'";
     const NearestElement nearest = nearest_element(boundary, source);
     const double length          = boundary.elements[nearest.element].length();
     if (!nearest.inside_domain || nearest.distance < length)
@@ -111,7 +111,7 @@ namespace quoin
                        + number_text(length)
                        + " m, away from the boundary. Move the source, or give "
                          "shorter elements.");
-    for (const Vector2d &x : points)
+    for (const dealii::Point<2> &x : points)
       if ((x - source).norm() < 1e-6 * length)
         throw InputError(section + position
                          + " is a point where the field is evaluated, by "
@@ -166,10 +166,10 @@ namespace quoin
           + number_text(start / peak) + " of the peak");
   }
 
-  Vector2d IncidentWaves::displacement(const Vector2d &x,
-                                       const double time) const
+  dealii::Tensor<1, 2> IncidentWaves::displacement(const dealii::Point<2> &x,
+                                                   const double time) const
   {
-    Vector2d sum = Vector2d::Zero();
+    dealii::Tensor<1, 2> sum = dealii::Tensor<1, 2>();
     for (const auto &wave : waves)
       sum += wave->displacement(x, time);
     return sum;

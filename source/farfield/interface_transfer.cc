@@ -13,12 +13,11 @@ namespace quoin
 {
   namespace
   {
-    using Eigen::Vector2d;
 
-    std::string place(const Vector2d &x)
+    std::string place(const dealii::Point<2> &x)
     {
       std::ostringstream text;
-      text << "(" << x.x() << ", " << x.y() << ") m";
+      text << "(" << x[0] << ", " << x[1] << ") m";
       return text.str();
     }
 
@@ -29,18 +28,18 @@ namespace quoin
       double distance; /**< distance of the midpoints across the element [m] */
     };
 
-    Overlap overlap(const BoundaryElement &element, const Vector2d &a,
-                    const Vector2d &b)
+    Overlap overlap(const BoundaryElement &element, const dealii::Point<2> &a,
+                    const dealii::Point<2> &b)
     {
-      const Vector2d edge = b - a;
-      const auto place    = [&](const Vector2d &x)
-      { return edge.dot(x - a) / edge.squaredNorm(); };
+      const dealii::Tensor<1, 2> edge = b - a;
+      const auto place                = [&](const dealii::Point<2> &x)
+      { return edge * (x - a) / edge.norm_square(); };
       // The domain of the elements is on the other side.
-      const double from     = std::clamp(place(element.b), 0., 1.),
-                   to       = std::clamp(place(element.a), 0., 1.);
-      const Vector2d middle = a + 0.5 * (from + to) * edge;
+      const double from             = std::clamp(place(element.b), 0., 1.),
+                   to               = std::clamp(place(element.a), 0., 1.);
+      const dealii::Point<2> middle = a + 0.5 * (from + to) * edge;
       return { from, to,
-               std::abs(element.normal().dot(middle - element.middle())) };
+               std::abs(element.normal() * (middle - element.middle())) };
     }
   } // namespace
 
@@ -53,17 +52,16 @@ namespace quoin
     std::map<unsigned int, std::vector<Entry>> rows; // of all nodes
     for (const BoundaryFace<2> &face : faces)
     {
-      const auto &[p, q] = face.points;
-      const Vector2d a(p[0], p[1]), b(q[0], q[1]);
-      const double size = (b - a).norm();
-      double found      = 0.;
+      const auto &[a, b] = face.points;
+      const double size  = (b - a).norm();
+      double found       = 0.;
       for (unsigned int e = 0; e < elements.size(); ++e)
       {
         const BoundaryElement &element = boundary.elements[elements[e]];
         // Elements may be chords of several edges of a curved boundary.
         const double reach = element.length() + size;
         if ((element.middle() - 0.5 * (a + b)).norm() > 0.51 * reach
-            || -element.tangent().dot(b - a) < 0.5 * size)
+            || -(element.tangent() * (b - a)) < 0.5 * size)
           continue;
         const Overlap part = overlap(element, a, b);
         const double share = part.end - part.begin;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/operators/archive.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/farfield/static_far_field.h>
@@ -79,8 +80,7 @@ namespace quoin
     StaticFarFieldState &far = state.get<StaticFarFieldState>();
     far.active               = true;
     for (const unsigned int c : captured_positions)
-      for (unsigned int d = 0; d < 2; ++d)
-        far.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
+      append_vector(far.held, captured[c].begun - captured[c].force);
     gather_displacement(captured, u);
     far.origin.assign(u.data(), u.data() + u.size());
   }
@@ -88,13 +88,9 @@ namespace quoin
   void StaticFarField::gather_displacement(
       const std::vector<CapturedNode<2>> &captured, VectorXd &means) const
   {
-    transfer.gather(
-        [&](const unsigned int k)
-        {
-          const auto &value = captured[captured_positions[k]].displacement.v;
-          return std::array<double, 2>{ { value[0], value[1] } };
-        },
-        means);
+    transfer.gather([&](const unsigned int k)
+                    { return captured[captured_positions[k]].displacement; },
+                    means);
   }
 
   void
@@ -127,21 +123,11 @@ namespace quoin
 
     const auto node = [&](const unsigned int k) -> const CapturedNode<2> &
     { return captured[captured_positions[k]]; };
+    transfer.gather([&](const unsigned int k) { return node(k).velocity; },
+                    v_before);
     transfer.gather(
         [&](const unsigned int k)
-        {
-          return std::array<double, 2>{ { node(k).velocity.v[0],
-                                          node(k).velocity.v[1] } };
-        },
-        v_before);
-    transfer.gather(
-        [&](const unsigned int k)
-        {
-          std::array<double, 2> change{};
-          for (unsigned int d = 0; d < 2; ++d)
-            change[d] = gain[k] * (node(k).force.v[d] + far.held[2 * k + d]);
-          return change;
-        },
+        { return gain[k] * (node(k).force + vector_at(far.held, k)); },
         change);
     gather_displacement(captured, u);
     u -= VectorXd::Map(far.origin.data(), u.size());
@@ -153,17 +139,12 @@ namespace quoin
     const double a = 0.5 * step.dt_velocity * step.mass_damping;
     for (unsigned int k = 0; k < node_list.size(); ++k)
     {
-      const auto force = transfer.force(k, p);
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const double total
-            = node(k).force.v[d] + far.held[2 * k + d] - thickness * force[d];
-        const double v1
-            = ((1. - a) * node(k).velocity.v[d] + gain[k] * total) / (1. + a);
-        state.velocity[node(k).node].v[d] = v1;
-        state.nodes[node(k).node].u[d]
-            = node(k).displacement.v[d] + step.dt * v1;
-      }
+      const dealii::Tensor<1, 2> total = node(k).force + vector_at(far.held, k)
+                                         - thickness * transfer.force(k, p);
+      const dealii::Tensor<1, 2> v1
+          = ((1. - a) * node(k).velocity + gain[k] * total) / (1. + a);
+      state.velocity[node(k).node] = v1;
+      state.nodes[node(k).node].u  = node(k).displacement + step.dt * v1;
     }
   }
 
@@ -177,11 +158,11 @@ namespace quoin
     {
       const CapturedNode<2> &before = captured[captured_positions[k]];
       const auto traction           = transfer.force(k, p);
-      double reaction[2]            = { 0., 0. };
-      for (unsigned int d = 0; d < 2; ++d)
+      dealii::Tensor<1, 2> reaction;
+      for (unsigned int d = 0; d < reaction.dimension; ++d)
       {
-        const double v0 = before.velocity.v[d];
-        const double v1 = state.velocity[before.node].v[d];
+        const double v0 = before.velocity[d];
+        const double v1 = state.velocity[before.node][d];
         const double w0 = 0.5 * step.dt_before * v0;
         const double w1 = 0.5 * step.dt * v1;
         const bool own  = before.owner[d] == this;
@@ -203,11 +184,7 @@ namespace quoin
     }
     transfer.gather(
         [&](const unsigned int k)
-        {
-          const NodeVector<2> &v
-              = state.velocity[captured[captured_positions[k]].node];
-          return std::array<double, 2>{ { v.v[0], v.v[1] } };
-        },
+        { return state.velocity[captured[captured_positions[k]].node]; },
         v_after);
     book_stored(step, state);
   }
@@ -234,7 +211,8 @@ namespace quoin
     state.pending.damping += damping.dot(v_after);
   }
 
-  void StaticFarField::hold(const NodeVector<2> *force, State<2> &state) const
+  void StaticFarField::hold(const dealii::Tensor<1, 2> *force,
+                            State<2> &state) const
   {
     StaticFarFieldState &far = state.get<StaticFarFieldState>();
     if (far.active)
@@ -242,40 +220,26 @@ namespace quoin
     far.active = true;
     far.held.clear();
     for (const unsigned int node : node_list)
-      for (unsigned int d = 0; d < 2; ++d)
-        far.held.push_back(-force[node].v[d]);
+      append_vector(far.held, -force[node]);
     VectorXd means;
-    transfer.gather(
-        [&](const unsigned int k)
-        {
-          const double *u = state.nodes[node_list[k]].u;
-          return std::array<double, 2>{ { u[0], u[1] } };
-        },
-        means);
+    transfer.gather([&](const unsigned int k)
+                    { return state.nodes[node_list[k]].u; },
+                    means);
     far.origin.assign(means.data(), means.data() + means.size());
   }
 
   double StaticFarField::add_forces(const NodeRecord<2> *nodes,
                                     const StaticFarFieldState &far,
-                                    NodeVector<2> *force) const
+                                    dealii::Tensor<1, 2> *force) const
   {
     VectorXd means;
-    transfer.gather(
-        [&](const unsigned int k)
-        {
-          const double *u = nodes[node_list[k]].u;
-          return std::array<double, 2>{ { u[0], u[1] } };
-        },
-        means);
+    transfer.gather([&](const unsigned int k) { return nodes[node_list[k]].u; },
+                    means);
     means -= VectorXd::Map(far.origin.data(), means.size());
     const VectorXd traction = stiffness * means;
     for (unsigned int k = 0; k < node_list.size(); ++k)
-    {
-      const auto elastic = transfer.force(k, traction);
-      for (unsigned int d = 0; d < 2; ++d)
-        force[node_list[k]].v[d]
-            += far.held[2 * k + d] - thickness * elastic[d];
-    }
+      force[node_list[k]]
+          += vector_at(far.held, k) - thickness * transfer.force(k, traction);
     return far.stored_before + 0.5 * traction.cwiseProduct(areas).dot(means);
   }
 

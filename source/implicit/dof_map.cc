@@ -297,7 +297,7 @@ namespace quoin
     model.nodes().exchange().update_ghosts(configuration.nodes.data());
   }
 
-  void DofMap::add_forces(const AlignedArray<NodeVector<2>> &force,
+  void DofMap::add_forces(const AlignedArray<dealii::Tensor<1, 2>> &force,
                           Vector &right_hand_side) const
   {
     const auto *values = reinterpret_cast<const double *>(force.data());

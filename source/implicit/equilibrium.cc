@@ -15,15 +15,15 @@ namespace quoin
   namespace
   {
     using Index = DofMap::Index;
-    constexpr NodeVector<2> no_force{ { 0., 0. } };
+    constexpr dealii::Tensor<1, 2> no_force;
 
     /** Displacement of all nodes by the model's size [-]: the forces for it
         count as applied, as without loads there is only rounding. */
     constexpr double least_motion = 1e-11;
 
-    double norm(const NodeVector<2> &f)
+    double norm(const dealii::Tensor<1, 2> &f)
     {
-      return std::sqrt(f.v[0] * f.v[0] + f.v[1] * f.v[1]);
+      return std::sqrt(f[0] * f[0] + f[1] * f[1]);
     }
   } // namespace
 
@@ -296,13 +296,13 @@ namespace quoin
   }
 
   void Equilibrium::add_element(const ElementLinearisation<2> &element,
-                                AlignedArray<NodeVector<2>> &force,
+                                AlignedArray<dealii::Tensor<1, 2>> &force,
                                 double &path, const bool on_path,
                                 Slopes *slopes)
   {
     for (unsigned int k = 0; k < element.n_nodes; ++k)
       for (unsigned int d = 0; d < 2; ++d)
-        force[element.nodes[k]].v[d] += element.force[2 * k + d];
+        force[element.nodes[k]][d] += element.force[2 * k + d];
     if (is_on_path(element))
       path += element.share * element.inelastic;
     if (!slopes)
@@ -333,7 +333,7 @@ namespace quoin
     if (!far_field)
       return;
     const auto &nodes = far_field->nodes();
-    AlignedArray<NodeVector<2>> force(model.nodes().n_local(), no_force);
+    AlignedArray<dealii::Tensor<1, 2>> force(model.nodes().n_local(), no_force);
     balance.far_field_energy = far_field->add_forces(
         configuration.nodes.data(), committed.get<StaticFarFieldState>(),
         force.data());
@@ -342,8 +342,8 @@ namespace quoin
       const auto &X = model.nodes().point(node);
       for (unsigned int d = 0; d < 2; ++d)
       {
-        const double by_far_field = force[node].v[d];
-        applied_force[node].v[d] += by_far_field;
+        const double by_far_field = force[node][d];
+        applied_force[node][d] += by_far_field;
         if (!dof_map.is_free(node, d))
           continue;
         balance.far_field_force[d] += by_far_field;
@@ -367,7 +367,7 @@ namespace quoin
     {
       const double stiffness = drag * drag_stiffness[i];
       for (unsigned int d = 0; d < 2; ++d)
-        balance.drag[i].v[d]
+        balance.drag[i][d]
             = -stiffness
               * (configuration.nodes[i].u[d] - committed.nodes[i].u[d]);
       if (!slopes)
@@ -377,7 +377,7 @@ namespace quoin
     }
   }
 
-  void Equilibrium::add_turning(const AlignedArray<NodeVector<2>> &force)
+  void Equilibrium::add_turning(const AlignedArray<dealii::Tensor<1, 2>> &force)
   {
     // The arms turn with the body: r x f changes by -r . f per radian.
     for (const RigidBody &body : dof_map.bodies())
@@ -387,8 +387,8 @@ namespace quoin
       double sum = 0.;
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
       {
-        const double *f = force[body.nodes[i]].v;
-        const auto &arm = body.present_arms[i];
+        const dealii::Tensor<1, 2> &f = force[body.nodes[i]];
+        const auto &arm               = body.present_arms[i];
         sum += arm[0] * f[0] + arm[1] * f[1];
       }
       matrix.add(body.first + 2, body.first + 2, sum);
@@ -458,10 +458,10 @@ namespace quoin
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
       {
-        applied_force[i].v[d] += balance.external[i].v[d];
-        balance.force[i].v[d] += applied_force[i].v[d];
+        applied_force[i][d] += balance.external[i][d];
+        balance.force[i][d] += applied_force[i][d];
         if (!held.empty())
-          balance.force[i].v[d] += left * held[2 * i + d];
+          balance.force[i][d] += left * held[2 * i + d];
       }
     if (!held.empty())
       for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
@@ -470,12 +470,13 @@ namespace quoin
     find_ratio(applied_force, balance);
   }
 
-  void Equilibrium::add_external(const double load_time, const double factor,
-                                 AlignedArray<NodeVector<2>> &force) const
+  void
+  Equilibrium::add_external(const double load_time, const double factor,
+                            AlignedArray<dealii::Tensor<1, 2>> &force) const
   {
     for (unsigned int i = 0; pattern && i < force.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        force[i].v[d] += factor * pattern->forces()[i].v[d];
+        force[i][d] += factor * pattern->forces()[i][d];
     for (const ForceOperator<2> *each : operators)
       each->add_loads({ load_time, stage_start + load_time }, force.data());
     for (unsigned int i = 0; i < force.size(); ++i)
@@ -483,21 +484,22 @@ namespace quoin
         force[i] = no_force;
   }
 
-  void Equilibrium::find_ratio(const AlignedArray<NodeVector<2>> &applied,
-                               Balance &balance)
+  void
+  Equilibrium::find_ratio(const AlignedArray<dealii::Tensor<1, 2>> &applied,
+                          Balance &balance)
   {
     double sums[3] = { 0., 0., 0. }; // unbalanced, applied, dragged
-    AlignedArray<NodeVector<2>> total = balance.force;
+    AlignedArray<dealii::Tensor<1, 2>> total = balance.force;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        total[i].v[d] += balance.drag[i].v[d];
+        total[i][d] += balance.drag[i][d];
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
     {
       sums[1] += norm(applied[i]);
       sums[2] += norm(balance.drag[i]);
-      NodeVector<2> free = total[i], given = total[i];
+      dealii::Tensor<1, 2> free = total[i], given = total[i];
       for (unsigned int d = 0; d < 2; ++d)
-        (dof_map.is_free(i, d) ? given : free).v[d] = 0.;
+        (dof_map.is_free(i, d) ? given : free)[d] = 0.;
       sums[0] += norm(free);
       sums[1] += norm(given);
     }
@@ -563,15 +565,15 @@ namespace quoin
     slopes.path_by_advance
         = dealii::Utilities::MPI::sum(slopes.path_by_advance, communicator);
 
-    AlignedArray<NodeVector<2>> change(n_owned, no_force);
+    AlignedArray<dealii::Tensor<1, 2>> change(n_owned, no_force);
     add_external(advance.load_time, configuration.factor, change);
     const double freed = advance.released - configuration.released;
     const auto &now    = committed.get<ImplicitState>();
     const auto &held   = now.held;
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        change[i].v[d] -= balance.external[i].v[d]
-                          + (held.empty() ? 0. : freed * held[2 * i + d]);
+        change[i][d] -= balance.external[i][d]
+                        + (held.empty() ? 0. : freed * held[2 * i + d]);
     auto drives
         = body_loads(dof_map.bodies(),
                      { advance.load_time, stage_start + advance.load_time });
@@ -596,13 +598,13 @@ namespace quoin
     DofMap::Vector push(dof_map.owned(), communicator),
         measure(dof_map.owned(), communicator);
     dof_map.add_forces(pattern->forces(), push);
-    AlignedArray<NodeVector<2>> weights(n_owned, no_force);
+    AlignedArray<dealii::Tensor<1, 2>> weights(n_owned, no_force);
     double moves
         = pattern->target(load_time) - pattern->target(configuration.load_time);
     double given = 0.; // by prescribed motions
     for (const DisplacementTerm &term : pattern->measure())
     {
-      weights[term.node].v[term.component] += term.weight;
+      weights[term.node][term.component] += term.weight;
       given += term.weight
                * dof_map.constraints().get_inhomogeneity(
                    dof_map.dof(term.node, term.component));

@@ -272,8 +272,7 @@ namespace quoin
     const unsigned int n_owned = model.nodes().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i].v[d]
-                                                  : 0.);
+        now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i][d] : 0.);
     const auto forces
         = body_forces(dof_map->bodies(), balance.force, communicator);
     now.held_blocks.resize(3 * std::size_t(model.rigid_blocks().n_blocks()));
@@ -340,10 +339,9 @@ namespace quoin
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double u = configuration.nodes[i].u[d] - state.nodes[i].u[d];
-        double force
-            = 0.5 * (start.external[i].v[d] + balance.external[i].v[d]);
+        double force   = 0.5 * (start.external[i][d] + balance.external[i][d]);
         const double out_of_balance
-            = 0.5 * (start.force[i].v[d] + balance.force[i].v[d]);
+            = 0.5 * (start.force[i][d] + balance.force[i][d]);
         if (dof_map->is_free(i, d))
           energy.damping += out_of_balance * u;
         else if (!dof_map->is_in_body(i))
@@ -414,7 +412,7 @@ namespace quoin
         if (given.part != &(*(*found)->parts())[given.component])
           continue;
         const auto &X      = model.nodes().point(given.node);
-        const double force = -balance.force[given.node].v[given.component];
+        const double force = -balance.force[given.node][given.component];
         result[given.component] += force;
         result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
       }
@@ -450,7 +448,7 @@ namespace quoin
       double square = 0.;
       for (unsigned int d = 0; d < 2; ++d)
         if (dof_map->is_free(i, d))
-          square += balance.force[i].v[d] * balance.force[i].v[d];
+          square += balance.force[i][d] * balance.force[i][d];
       if (!dof_map->is_in_body(i))
         compare(i, std::sqrt(square));
     }

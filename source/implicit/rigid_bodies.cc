@@ -100,15 +100,15 @@ namespace quoin
   }
 
   BodyValues body_forces(const RigidBodies &bodies,
-                         const AlignedArray<NodeVector<2>> &force,
+                         const AlignedArray<dealii::Tensor<1, 2>> &force,
                          const MPI_Comm communicator)
   {
     BodyValues result(bodies.size(), { { 0., 0., 0. } });
     for (unsigned int b = 0; b < bodies.size(); ++b)
       for (unsigned int i = 0; i < bodies[b].nodes.size(); ++i)
       {
-        const double *f = force[bodies[b].nodes[i]].v;
-        const auto &arm = bodies[b].present_arms[i];
+        const dealii::Tensor<1, 2> &f = force[bodies[b].nodes[i]];
+        const auto &arm               = bodies[b].present_arms[i];
         result[b][0] += f[0];
         result[b][1] += f[1];
         result[b][2] += arm[0] * f[1] - arm[1] * f[0];

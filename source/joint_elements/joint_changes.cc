@@ -87,7 +87,7 @@ namespace quoin
   }
 
   void add_traction_forces(const MatchedJoints &joints, const unsigned int i,
-                           const State<2> &state, NodeVector<2> *force)
+                           const State<2> &state, dealii::Tensor<1, 2> *force)
   {
     const JointHistory &history = state.get<JointHistory>();
     const JointSegment &segment = joints.segments()[i];
@@ -103,8 +103,8 @@ namespace quoin
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double f = sigma * local.normal[d] + tau * local.tangent[d];
-        force[segment.lower[k]].v[d] += f;
-        force[segment.upper[k]].v[d] -= f;
+        force[segment.lower[k]][d] += f;
+        force[segment.upper[k]][d] -= f;
       }
     }
     subtract_couple(segment, local, couple, force);

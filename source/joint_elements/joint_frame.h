@@ -55,15 +55,14 @@ namespace quoin
   /** How fast @p frame turns [1/s] as its nodes move with @p velocity. */
   inline double rotation_rate(const JointSegment &segment,
                               const JointFrame &frame,
-                              const NodeVector<2> *velocity)
+                              const dealii::Tensor<1, 2> *velocity)
   {
     double rate = 0.;
     for (unsigned int d = 0; d < 2; ++d)
       rate -= frame.normal[d]
-              * ((velocity[segment.lower[1]].v[d]
-                  - velocity[segment.lower[0]].v[d])
-                 + (velocity[segment.upper[1]].v[d]
-                    - velocity[segment.upper[0]].v[d]));
+              * ((velocity[segment.lower[1]][d] - velocity[segment.lower[0]][d])
+                 + (velocity[segment.upper[1]][d]
+                    - velocity[segment.upper[0]][d]));
     return rate * frame.inverse_length;
   }
 
@@ -82,10 +81,10 @@ namespace quoin
     for (unsigned int d = 0; d < 2; ++d)
     {
       const double end = f * frame.normal[d];
-      force[segment.lower[0]].v[d] -= end;
-      force[segment.upper[0]].v[d] -= end;
-      force[segment.lower[1]].v[d] += end;
-      force[segment.upper[1]].v[d] += end;
+      force[segment.lower[0]][d] -= end;
+      force[segment.upper[0]][d] -= end;
+      force[segment.lower[1]][d] += end;
+      force[segment.upper[1]][d] += end;
     }
   }
 } // namespace quoin

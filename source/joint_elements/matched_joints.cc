@@ -86,8 +86,9 @@ namespace quoin
               = all_segments[i + std::min(l, group.size - 1)];
           for (unsigned int k = 0; k < 2; ++k)
           {
-            group.nodes[k][l]     = segment.lower[k] * sizeof(NodeVector<2>);
-            group.nodes[2 + k][l] = segment.upper[k] * sizeof(NodeVector<2>);
+            group.nodes[k][l] = segment.lower[k] * sizeof(dealii::Tensor<1, 2>);
+            group.nodes[2 + k][l]
+                = segment.upper[k] * sizeof(dealii::Tensor<1, 2>);
             if (l >= group.size)
               continue;
             group.area[2 * l + k]   = segment.area[k];
@@ -113,7 +114,7 @@ namespace quoin
                                      const NodeRecord<2> *nodes,
                                      JointHistory &history,
                                      EnergyAccounts &energy,
-                                     NodeVector<2> *force) const
+                                     dealii::Tensor<1, 2> *force) const
   {
     using F     = LaneFunctions<native_lanes>;
     using Bits  = F::Bits;
@@ -209,7 +210,7 @@ namespace quoin
 
   void MatchedJoints::add_forces(const NodeRecord<2> *nodes,
                                  JointHistory &history, EnergyAccounts &energy,
-                                 NodeVector<2> *force) const
+                                 dealii::Tensor<1, 2> *force) const
   {
     // Summed apart: a step's share is small beside the account.
     EnergyAccounts lost;

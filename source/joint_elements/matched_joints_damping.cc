@@ -16,10 +16,10 @@ namespace quoin
   template <typename Acts, typename Traction>
   void MatchedJoints::add_rate_forces(const unsigned int i,
                                       const NodeRecord<2> *nodes,
-                                      const NodeVector<2> *velocity,
+                                      const dealii::Tensor<1, 2> *velocity,
                                       const Acts &acts,
                                       const Traction &traction,
-                                      NodeVector<2> *force) const
+                                      dealii::Tensor<1, 2> *force) const
   {
     const JointSegment &segment = all_segments[i];
     const JointFrame local      = joint_frame(segment, nodes);
@@ -29,8 +29,8 @@ namespace quoin
     {
       if (!acts(2 * i + k))
         continue;
-      const double *a = velocity[segment.lower[k]].v;
-      const double *b = velocity[segment.upper[k]].v;
+      const dealii::Tensor<1, 2> &a = velocity[segment.lower[k]];
+      const dealii::Tensor<1, 2> &b = velocity[segment.upper[k]];
       Motion motion;
       motion.gap                  = joint_gap(segment, local, nodes, k);
       const auto &[opening, slip] = motion.gap;
@@ -46,8 +46,8 @@ namespace quoin
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double f = sigma * local.normal[d] + tau * local.tangent[d];
-        force[segment.lower[k]].v[d] += f;
-        force[segment.upper[k]].v[d] -= f;
+        force[segment.lower[k]][d] += f;
+        force[segment.upper[k]][d] -= f;
       }
     }
     subtract_couple(segment, local, couple, force);
@@ -56,8 +56,8 @@ namespace quoin
   template <typename Law>
   void MatchedJoints::add_set_viscous_forces(
       const unsigned int set, const Law &law, const NodeRecord<2> *nodes,
-      const JointHistory &history, const NodeVector<2> *velocity,
-      const double beta, NodeVector<2> *force) const
+      const JointHistory &history, const dealii::Tensor<1, 2> *velocity,
+      const double beta, dealii::Tensor<1, 2> *force) const
   {
     using F     = LaneFunctions<native_lanes>;
     using Bits  = F::Bits;
@@ -106,9 +106,9 @@ namespace quoin
 
   void MatchedJoints::add_viscous_forces(const NodeRecord<2> *nodes,
                                          const JointHistory &history,
-                                         const NodeVector<2> *velocity,
+                                         const dealii::Tensor<1, 2> *velocity,
                                          const double beta,
-                                         NodeVector<2> *force) const
+                                         dealii::Tensor<1, 2> *force) const
   {
     for (unsigned int set = 0; set < all_laws.size(); ++set)
       std::visit(
@@ -119,9 +119,10 @@ namespace quoin
           all_laws[set]);
   }
 
-  void MatchedJoints::add_elastic_forces(const NodeRecord<2> *nodes,
-                                         const NodeVector<2> *displacement,
-                                         NodeVector<2> *force) const
+  void
+  MatchedJoints::add_elastic_forces(const NodeRecord<2> *nodes,
+                                    const dealii::Tensor<1, 2> *displacement,
+                                    dealii::Tensor<1, 2> *force) const
   {
     for (unsigned int i = 0; i < all_segments.size(); ++i)
     {
@@ -153,8 +154,8 @@ namespace quoin
 
   void MatchedJoints::add_dashpot_forces(const NodeRecord<2> *nodes,
                                          const JointHistory &history,
-                                         const NodeVector<2> *velocity,
-                                         NodeVector<2> *force)
+                                         const dealii::Tensor<1, 2> *velocity,
+                                         dealii::Tensor<1, 2> *force)
   {
     // A point that never failed carries tension, too.
     const auto bears = [&](const unsigned int p)

@@ -5,7 +5,7 @@
 #define quoin_source_joint_elements_segment_lanes_h
 
 #include <quoin/base/lane_functions.h>
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 #include <quoin/joint_elements/segment_group.h>
 
 #include <algorithm>
@@ -79,7 +79,7 @@ namespace quoin
         the nodes, with what the turning of the frame adds (joint_frame.h). */
     QUOIN_INLINE void add_forces(const SegmentGroup<lanes> &group,
                                  const Value (&sigma)[2], const Value (&tau)[2],
-                                 NodeVector<2> *force) const
+                                 dealii::Tensor<1, 2> *force) const
     {
       char *to           = reinterpret_cast<char *>(force);
       const Value couple = inverse_length
@@ -100,7 +100,7 @@ namespace quoin
 
     /** Rates [m/s] of the openings and slips of both points. */
     QUOIN_INLINE void find_rates(const SegmentGroup<lanes> &group,
-                                 const NodeVector<2> *velocity,
+                                 const dealii::Tensor<1, 2> *velocity,
                                  Value (&opening_rate)[2],
                                  Value (&slip_rate)[2]) const
     {

@@ -55,10 +55,10 @@ namespace quoin
       return normal * frame.n + shear[0] * frame.s + shear[1] * frame.t;
     }
 
-    void add(const Vector &f, NodeVector<3> &node)
+    void add(const Vector &f, dealii::Tensor<1, 3> &node)
     {
       for (unsigned int d = 0; d < 3; ++d)
-        node.v[d] += f[d];
+        node[d] += f[d];
     }
 
     /**
@@ -69,7 +69,7 @@ namespace quoin
      */
     void subtract_couple(const SpaceJointFace &face,
                          const SpaceJointFrame &frame, const Vector &couple,
-                         NodeVector<3> *force)
+                         dealii::Tensor<1, 3> *force)
     {
       const double lift = couple * frame.s / frame.above;
       const Vector f2   = -0.5 * lift * frame.n;
@@ -90,7 +90,7 @@ namespace quoin
     void add_face_forces(const SpaceJointFace &face,
                          const SpaceJointFrame &frame,
                          const NodeRecord<3> *nodes, const Force &f,
-                         NodeVector<3> *force)
+                         dealii::Tensor<1, 3> *force)
     {
       Vector couple;
       for (unsigned int k = 0; k < 3; ++k)

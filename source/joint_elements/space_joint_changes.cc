@@ -69,7 +69,7 @@ namespace quoin
   }
 
   void add_traction_forces(const SpaceJoints &joints, const unsigned int i,
-                           const State<3> &state, NodeVector<3> *force)
+                           const State<3> &state, dealii::Tensor<1, 3> *force)
   {
     const SpaceJointHistory &history = state.get<SpaceJointHistory>();
     const SpaceJointFace &face       = joints.faces()[i];

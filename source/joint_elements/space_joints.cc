@@ -13,15 +13,15 @@ namespace quoin
 {
   namespace
   {
-    Vector vector_of(const NodeVector<3> &node)
+    Vector vector_of(const dealii::Tensor<1, 3> &node)
     {
-      return Vector({ node.v[0], node.v[1], node.v[2] });
+      return Vector({ node[0], node[1], node[2] });
     }
 
     /** How fast @p frame turns as its nodes move with @p velocity [1/s]. */
     Vector rotation_rate(const SpaceJointFace &face,
                          const SpaceJointFrame &frame,
-                         const NodeVector<3> *velocity)
+                         const dealii::Tensor<1, 3> *velocity)
     {
       const auto edge = [&](const unsigned int k)
       {
@@ -41,8 +41,9 @@ namespace quoin
         area [Pa s/m] on rates. */
     template <typename Stiffness>
     void add_rate_forces(const SpaceJointFace &face, const NodeRecord<3> *nodes,
-                         const NodeVector<3> *velocity,
-                         const Stiffness &stiffness, NodeVector<3> *force)
+                         const dealii::Tensor<1, 3> *velocity,
+                         const Stiffness &stiffness,
+                         dealii::Tensor<1, 3> *force)
     {
       const SpaceJointFrame frame = joint_frame(face, nodes);
       const Vector turn           = rotation_rate(face, frame, velocity);
@@ -170,7 +171,7 @@ namespace quoin
                                    const NodeRecord<3> *nodes,
                                    SpaceJointHistory &history,
                                    EnergyAccounts &energy,
-                                   NodeVector<3> *force) const
+                                   dealii::Tensor<1, 3> *force) const
   {
     for (unsigned int i = set_begin[set]; i < set_begin[set + 1]; ++i)
     {
@@ -202,7 +203,7 @@ namespace quoin
   void SpaceJoints::add_forces(const NodeRecord<3> *nodes,
                                SpaceJointHistory &history,
                                EnergyAccounts &energy,
-                               NodeVector<3> *force) const
+                               dealii::Tensor<1, 3> *force) const
   {
     // Summed apart: a step's share is small beside the account.
     EnergyAccounts lost;
@@ -215,9 +216,9 @@ namespace quoin
 
   void SpaceJoints::add_viscous_forces(const NodeRecord<3> *nodes,
                                        const SpaceJointHistory &history,
-                                       const NodeVector<3> *velocity,
+                                       const dealii::Tensor<1, 3> *velocity,
                                        const double beta,
-                                       NodeVector<3> *force) const
+                                       dealii::Tensor<1, 3> *force) const
   {
     for (unsigned int i = 0; i < all_faces.size(); ++i)
       visit_law(
@@ -241,8 +242,8 @@ namespace quoin
   }
 
   void SpaceJoints::add_elastic_forces(const NodeRecord<3> *nodes,
-                                       const NodeVector<3> *displacement,
-                                       NodeVector<3> *force) const
+                                       const dealii::Tensor<1, 3> *displacement,
+                                       dealii::Tensor<1, 3> *force) const
   {
     for (const SpaceJointFace &face : all_faces)
       add_rate_forces(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/free_field_boundary.h>
@@ -198,7 +199,7 @@ namespace quoin
                            + ": waves would not propagate vertically from it.");
         const Impedance &z = given.impedance[face.group];
         const double width = layers.front().thickness;
-        base.impedance     = { { width * z.shear, width * z.normal } };
+        base.impedance = dealii::Point<2>(width * z.shear, width * z.normal);
         return faces;
       }
     }
@@ -240,8 +241,7 @@ namespace quoin
     column.displacement.assign(2 * node_height.size(), 0.);
     column.velocity = column.displacement;
     for (const unsigned int c : captured_positions)
-      for (unsigned int d = 0; d < 2; ++d)
-        column.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
+      append_vector(column.held, captured[c].begun - captured[c].force);
   }
 
   void FreeFieldBoundary::move_foot(const StepContext &step,
@@ -249,7 +249,7 @@ namespace quoin
                                     FreeFieldState &column) const
   {
     const double h = 0.5 * step.dt_velocity, m = node_mass.front();
-    for (unsigned int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < base.impedance.dimension; ++d)
     {
       const LoadComponent &given = base.components[d];
       double &v                  = column.velocity[d];
@@ -279,21 +279,17 @@ namespace quoin
     for (unsigned int e = 0; e < layers.size(); ++e)
     {
       const Layer &layer = layers[e];
-      double strain[2]; // shear, vertical
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const unsigned int low = 2 * e + d, high = low + 2;
-        strain[d]
-            = (u[high] - u[low] + step.stiffness_damping * (v[high] - v[low]))
-              / layer.height;
-      }
-      const double shear  = layer.stiffness.c33 * strain[0];
-      const double normal = layer.stiffness.c11 * strain[1];
-      traction[e]         = { { layer.stiffness.c12 * strain[1], shear } };
-      force[2 * e] += layer.thickness * shear;
-      force[2 * e + 1] += layer.thickness * normal;
-      force[2 * e + 2] -= layer.thickness * shear;
-      force[2 * e + 3] -= layer.thickness * normal;
+      // Shear and vertical strain.
+      const dealii::Tensor<1, 2> strain
+          = (vector_at(u, e + 1) - vector_at(u, e)
+             + step.stiffness_damping * (vector_at(v, e + 1) - vector_at(v, e)))
+            / layer.height;
+      const dealii::Point<2> stress(layer.stiffness.c33 * strain[0],
+                                    layer.stiffness.c11 * strain[1]);
+      traction[e]
+          = dealii::Point<2>(layer.stiffness.c12 * strain[1], stress[0]);
+      add_to_vector(force, e, layer.thickness * stress);
+      add_to_vector(force, e + 1, -layer.thickness * stress);
     }
 
     mean_velocity  = v;
@@ -324,15 +320,13 @@ namespace quoin
         = base.is_prescribed ? 0. : base.components[1].value(step.begin);
     for (unsigned int i = 0; i < pull.size(); ++i)
     {
-      const double *v = &mean_velocity[2 * column_node[i]];
-      pull[i]         = base_dashpots[i].pull(vn, vs);
-      for (unsigned int d = 0; d < 2; ++d)
-        pull[i][d]
-            += column.held[2 * i + d] + side_dashpots[i].damping[d] * v[d];
+      const auto v = vector_at(mean_velocity, column_node[i]);
+      pull[i]      = base_dashpots[i].pull(vn, vs) + vector_at(column.held, i);
+      for (unsigned int d = 0; d < v.dimension; ++d)
+        pull[i][d] += side_dashpots[i].damping[d] * v[d];
     }
     for (const Share &share : shares)
-      for (unsigned int d = 0; d < 2; ++d)
-        pull[share.node][d] += share.area * traction[share.layer][d];
+      pull[share.node] += share.area * traction[share.layer];
     for (unsigned int i = 0; i < pull.size(); ++i)
       move_with_dashpot(step, captured[captured_positions[i]], damping[i],
                         pull[i], state);

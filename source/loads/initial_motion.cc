@@ -93,7 +93,7 @@ namespace quoin
         x[d] = place[d] = node.X[d];
       for (unsigned int d = 0; d < dim; ++d)
       {
-        double &u = node.u[d], &v = state.velocity[i].v[d];
+        double &u = node.u[d], &v = state.velocity[i][d];
         u = displacement.empty() ? 0. : displacement[d](x, 0.);
         v = velocity.empty() ? 0. : velocity[d](x, 0.);
         if (!std::isfinite(u) || !std::isfinite(v))

@@ -433,7 +433,7 @@ namespace quoin
     if (in_situ)
       return in_situ->stress(x, y);
     std::array<double, 4> result{};
-    const Eigen::Vector2d place(x, y);
+    const dealii::Point<2> place(x, y);
     for (unsigned int k = 0; k < 3; ++k)
       result[k] = stress_fields.empty() ? stress[k] + y * stress_gradient[k]
                                         : stress_fields[k](place, 0.);

@@ -115,7 +115,7 @@ namespace quoin
                     const std::string &load)
     {
       // How many cells each node has in these groups, and how many others.
-      std::vector<NodeVector<dim>> count(node_map.n_local());
+      std::vector<dealii::Tensor<1, dim>> count(node_map.n_local());
       const LocalCells<dim> &cells = node_map.cells();
       for (unsigned int c = 0; c < cells.size(); ++c)
       {
@@ -123,15 +123,15 @@ namespace quoin
             = groups.empty()
               || std::count(groups.begin(), groups.end(), cells.group[c]) > 0;
         for (const unsigned int node : cells.nodes[c])
-          count[node].v[is_in ? 0 : 1] += 1.;
+          count[node][is_in ? 0 : 1] += 1.;
       }
       node_map.exchange().add_to_owners(count.data());
       std::vector<unsigned int> nodes;
       bool is_shared = false;
       for (unsigned int i = 0; i < node_map.n_owned(); ++i)
-        if (count[i].v[0] > 0.)
+        if (count[i][0] > 0.)
         {
-          is_shared = is_shared || count[i].v[1] > 0.;
+          is_shared = is_shared || count[i][1] > 0.;
           nodes.push_back(i);
         }
       if (dealii::Utilities::MPI::max(unsigned(is_shared),
@@ -202,7 +202,7 @@ namespace quoin
       return;
     }
     std::map<unsigned int, double> area;
-    std::map<unsigned int, NodeVector<dim>> inward_area;
+    std::map<unsigned int, dealii::Tensor<1, dim>> inward_area;
     for (const BoundaryFace<dim> &face : faces)
     {
       const dealii::Tensor<1, dim> outward
@@ -214,7 +214,7 @@ namespace quoin
           const double share      = face.shares[k];
           area[node] += share * outward.norm();
           for (unsigned int d = 0; d < dim; ++d)
-            inward_area[node].v[d] -= share * outward[d];
+            inward_area[node][d] -= share * outward[d];
         }
     }
     for (const auto &[node, weight] : area)
@@ -229,8 +229,7 @@ namespace quoin
     {
       weights[i] *= node_factors[i];
       if (!inward.empty())
-        for (double &area_component : inward[i].v)
-          area_component *= node_factors[i];
+        inward[i] *= node_factors[i];
     }
   }
 
@@ -340,7 +339,7 @@ namespace quoin
 
   template <int dim>
   void NodalLoad<dim>::add_loads(const TimePoint &time,
-                                 NodeVector<dim> *force) const
+                                 dealii::Tensor<1, dim> *force) const
   {
     if (field)
     {
@@ -348,21 +347,22 @@ namespace quoin
       const double share = grown_share(time.stage, ramp_duration);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          force[nodes[i]].v[d] += share * forces[i].v[d];
+          force[nodes[i]][d] += share * forces[i][d];
       return;
     }
     const auto values = amplitude(time);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        force[nodes[i]].v[d] += values[d] * weights[i];
+        force[nodes[i]][d] += values[d] * weights[i];
     for (unsigned int i = 0; i < inward.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        force[nodes[i]].v[d] += values[3] * inward[i].v[d];
+        force[nodes[i]][d] += values[3] * inward[i][d];
   }
 
   template <int dim>
-  double NodalLoad<dim>::external_power(const TimePoint &time,
-                                        const NodeVector<dim> *velocity) const
+  double
+  NodalLoad<dim>::external_power(const TimePoint &time,
+                                 const dealii::Tensor<1, dim> *velocity) const
   {
     if (field)
     {
@@ -370,16 +370,16 @@ namespace quoin
       const auto &forces = field->forces(time);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          power += forces[i].v[d] * velocity[nodes[i]].v[d];
+          power += forces[i][d] * velocity[nodes[i]][d];
       return grown_share(time.stage, ramp_duration) * power;
     }
     double sum[dim]{}, inflow = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        sum[d] += weights[i] * velocity[nodes[i]].v[d];
+        sum[d] += weights[i] * velocity[nodes[i]][d];
     for (unsigned int i = 0; i < inward.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        inflow += inward[i].v[d] * velocity[nodes[i]].v[d];
+        inflow += inward[i][d] * velocity[nodes[i]][d];
     const auto values = amplitude(time);
     double power      = values[3] * inflow;
     for (unsigned int d = 0; d < dim; ++d)

@@ -20,16 +20,16 @@ namespace quoin
                     const std::vector<unsigned int> &groups)
     {
       // Another rank may have the cells of an owned node.
-      std::vector<NodeVector<2>> is_in(node_map.n_local());
+      std::vector<dealii::Tensor<1, 2>> is_in(node_map.n_local());
       for (unsigned int c = 0; c < node_map.cells().size(); ++c)
         if (std::find(groups.begin(), groups.end(), node_map.cells().group[c])
             != groups.end())
           for (const unsigned int node : node_map.cells().nodes[c])
-            is_in[node].v[0] = 1.;
+            is_in[node][0] = 1.;
       node_map.exchange().add_to_owners(is_in.data());
       std::vector<unsigned int> nodes;
       for (unsigned int i = 0; i < node_map.n_owned(); ++i)
-        if (is_in[i].v[0] > 0.)
+        if (is_in[i][0] > 0.)
           nodes.push_back(i);
       return nodes;
     }
@@ -87,13 +87,13 @@ namespace quoin
     std::array<double, 6> moments{};
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const NodeRecord<2> &node = state.nodes[node_list[i]];
-      const NodeVector<2> &v    = state.velocity[node_list[i]];
+      const NodeRecord<2> &node     = state.nodes[node_list[i]];
+      const dealii::Tensor<1, 2> &v = state.velocity[node_list[i]];
       moments[0] += node_mass[i];
       for (unsigned int d = 0; d < 2; ++d)
       {
         moments[1 + d] += node_mass[i] * (node.X[d] + node.u[d]);
-        moments[3 + d] += node_mass[i] * v.v[d];
+        moments[3 + d] += node_mass[i] * v[d];
       }
     }
     moments = sum(moments, communicator);
@@ -119,10 +119,10 @@ namespace quoin
       platen.centre[d] = centre[d] - platen.displacement[d];
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const NodeRecord<2> &node = state.nodes[node_list[i]];
-      const double *v           = state.velocity[node_list[i]].v;
-      const double x            = node.X[0] + node.u[0] - centre[0];
-      const double y            = node.X[1] + node.u[1] - centre[1];
+      const NodeRecord<2> &node     = state.nodes[node_list[i]];
+      const dealii::Tensor<1, 2> &v = state.velocity[node_list[i]];
+      const double x                = node.X[0] + node.u[0] - centre[0];
+      const double y                = node.X[1] + node.u[1] - centre[1];
       platen.arms.push_back(c * x + s * y);
       platen.arms.push_back(c * y - s * x);
       spin += node_mass[i] * (x * v[1] - y * v[0]);
@@ -158,9 +158,9 @@ namespace quoin
                  s = std::sin(platen.displacement[2]);
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const double *f = captured[captured_positions[i]].force.v;
-      const double rx = c * arms[2 * i] - s * arms[2 * i + 1];
-      const double ry = s * arms[2 * i] + c * arms[2 * i + 1];
+      const dealii::Tensor<1, 2> &f = captured[captured_positions[i]].force;
+      const double rx               = c * arms[2 * i] - s * arms[2 * i + 1];
+      const double ry               = s * arms[2 * i] + c * arms[2 * i + 1];
       force[0] += f[0];
       force[1] += f[1];
       force[2] += rx * f[1] - ry * f[0];
@@ -233,9 +233,9 @@ namespace quoin
       const double mean[2]
           = { 0.5 * (arm[0] + c0 * arms[2 * i] - s0 * arms[2 * i + 1]),
               0.5 * (arm[1] + s0 * arms[2 * i] + c0 * arms[2 * i + 1]) };
-      NodeVector<2> &velocity = state.velocity[before.node];
-      velocity.v[0] = platen.velocity[0] - platen.velocity[2] * mean[1];
-      velocity.v[1] = platen.velocity[1] + platen.velocity[2] * mean[0];
+      dealii::Tensor<1, 2> &velocity = state.velocity[before.node];
+      velocity[0] = platen.velocity[0] - platen.velocity[2] * mean[1];
+      velocity[1] = platen.velocity[1] + platen.velocity[2] * mean[0];
       for (unsigned int d = 0; d < 2; ++d)
         node.u[d]
             = platen.centre[d] + platen.displacement[d] + arm[d] - node.X[d];

@@ -67,11 +67,12 @@ namespace quoin
       {
         const CapturedNode<dim> &before = captured[c];
         dealii::Point<3> place;
-        std::copy_n(state.nodes[before.node].X, dim, &place[0]);
+        for (unsigned int e = 0; e < dim; ++e)
+          place[e] = state.nodes[before.node].X[e];
         const double velocity = component.field ? velocity_at(place) : common;
-        state.velocity[before.node].v[d] = velocity;
+        state.velocity[before.node][d] = velocity;
         state.nodes[before.node].u[d]
-            = before.displacement.v[d] + step.dt * velocity;
+            = before.displacement[d] + step.dt * velocity;
       }
     }
   }
@@ -86,17 +87,17 @@ namespace quoin
     for (const unsigned int c : this->captured_positions)
     {
       const CapturedNode<dim> &before = captured[c];
-      double reaction[dim]{};
+      dealii::Tensor<1, dim> reaction;
       for (unsigned int d = 0; d < dim; ++d)
       {
         if (before.owner[d] != this)
           continue;
-        const double after = state.velocity[before.node].v[d];
+        const double after = state.velocity[before.node][d];
         reaction[d]
-            = before.mass * (after - before.velocity.v[d]) / step.dt_velocity
-              - before.force.v[d];
+            = before.mass * (after - before.velocity[d]) / step.dt_velocity
+              - before.force[d];
         state.energy.external
-            += 0.5 * step.dt_before * reaction[d] * before.velocity.v[d];
+            += 0.5 * step.dt_before * reaction[d] * before.velocity[d];
         state.pending.external += 0.5 * step.dt * reaction[d] * after;
         this->last_resultant[d] += reaction[d];
       }

@@ -221,14 +221,14 @@ namespace quoin
   }
 
   template <int dim>
-  const std::vector<NodeVector<dim>> &
+  const std::vector<dealii::Tensor<1, dim>> &
   TractionField<dim>::forces(const TimePoint &time) const
   {
     std::vector<double> data = data_at(time);
     if (data == last_data)
       return last_forces;
     last_data = std::move(data);
-    last_forces.assign(node_list.size(), NodeVector<dim>{});
+    last_forces.assign(node_list.size(), dealii::Tensor<1, dim>());
     const std::vector<Cut> cuts = cuts_at(time);
     const std::vector<double> centres
         = shape ? shape->at(time) : std::vector<double>();
@@ -251,7 +251,7 @@ namespace quoin
             continue;
           const double part = point.coordinates[k] + face.shares[k] - 1. / dim;
           for (unsigned int d = 0; d < dim; ++d)
-            last_forces[face.slots[k]].v[d] += part * force[d];
+            last_forces[face.slots[k]][d] += part * force[d];
         }
       }
     }

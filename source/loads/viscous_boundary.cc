@@ -19,39 +19,42 @@ namespace quoin
   {
     /** Product of a symmetric matrix, as Dashpot::Damping, and a vector. */
     template <int dim>
-    std::array<double, dim>
-    product(const typename Dashpot<dim>::Damping &matrix, const double *v)
+    dealii::Tensor<1, dim> product(const typename Dashpot<dim>::Damping &matrix,
+                                   const dealii::Tensor<1, dim> &v)
     {
       if constexpr (dim == 2)
       {
         const auto &[xx, yy, xy] = matrix;
-        return { xx * v[0] + xy * v[1], xy * v[0] + yy * v[1] };
+        return dealii::Point<2>(xx * v[0] + xy * v[1], xy * v[0] + yy * v[1]);
       }
       else
       {
         const auto &[xx, yy, zz, xy, xz, yz] = matrix;
-        return { xx * v[0] + xy * v[1] + xz * v[2],
-                 xy * v[0] + yy * v[1] + yz * v[2],
-                 xz * v[0] + yz * v[1] + zz * v[2] };
+        return dealii::Point<3>(xx * v[0] + xy * v[1] + xz * v[2],
+                                xy * v[0] + yy * v[1] + yz * v[2],
+                                xz * v[0] + yz * v[1] + zz * v[2]);
       }
     }
 
     /** Solves with a symmetric positive definite matrix. */
-    void solve(const std::array<double, 3> &matrix, const double *b, double *x)
+    dealii::Tensor<1, 2> solve(const std::array<double, 3> &matrix,
+                               const dealii::Tensor<1, 2> &b)
     {
       const auto &[xx, yy, xy] = matrix;
       const double determinant = xx * yy - xy * xy;
-      x[0]                     = (yy * b[0] - xy * b[1]) / determinant;
-      x[1]                     = (xx * b[1] - xy * b[0]) / determinant;
+      return dealii::Point<2>((yy * b[0] - xy * b[1]) / determinant,
+                              (xx * b[1] - xy * b[0]) / determinant);
     }
 
-    void solve(const std::array<double, 6> &matrix, const double *b, double *x)
+    dealii::Tensor<1, 3> solve(const std::array<double, 6> &matrix,
+                               const dealii::Tensor<1, 3> &b)
     {
       const auto &[xx, yy, zz, xy, xz, yz] = matrix;
       Eigen::Matrix3d full;
       full << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-      Eigen::Map<Eigen::Vector3d>(x, 3)
-          = full.llt().solve(Eigen::Map<const Eigen::Vector3d>(b, 3));
+      const Eigen::Vector3d x
+          = full.llt().solve(Eigen::Vector3d(b[0], b[1], b[2]));
+      return dealii::Point<3>(x[0], x[1], x[2]);
     }
   } // namespace
 
@@ -105,41 +108,36 @@ namespace quoin
   }
 
   template <int dim>
-  void
-  move_with_dashpot(const StepContext &step, const CapturedNode<dim> &before,
-                    const typename Dashpot<dim>::Damping &damping,
-                    const typename Dashpot<dim>::Force &pull, State<dim> &state)
+  void move_with_dashpot(const StepContext &step,
+                         const CapturedNode<dim> &before,
+                         const typename Dashpot<dim>::Damping &damping,
+                         const dealii::Tensor<1, dim> &pull, State<dim> &state)
   {
     const double h = 0.5 * step.dt_velocity, m = before.mass;
-    const double a = h * step.mass_damping * m;
-    double b[dim];
-    const auto drag = product<dim>(damping, before.velocity.v);
-    for (unsigned int d = 0; d < dim; ++d)
-      b[d] = (m - a) * before.velocity.v[d] - h * drag[d]
-             + 2. * h * (before.force.v[d] + pull[d]);
+    const double a  = h * step.mass_damping * m;
+    const auto drag = product<dim>(damping, before.velocity);
+    const auto b
+        = (m - a) * before.velocity - h * drag + 2. * h * (before.force + pull);
     auto matrix = damping;
     for (unsigned int k = 0; k < matrix.size(); ++k)
       matrix[k] = h * damping[k] + (k < dim ? m + a : 0.);
-    NodeVector<dim> &after = state.velocity[before.node];
-    solve(matrix, b, after.v);
-    for (unsigned int d = 0; d < dim; ++d)
-      state.nodes[before.node].u[d]
-          = before.displacement.v[d] + step.dt * after.v[d];
+    dealii::Tensor<1, dim> &after = state.velocity[before.node];
+    after                         = solve(matrix, b);
+    state.nodes[before.node].u    = before.displacement + step.dt * after;
   }
 
   template <int dim>
   void account_for_dashpot(const StepContext &step,
                            const CapturedNode<dim> &before,
                            const typename Dashpot<dim>::Damping &damping,
-                           const typename Dashpot<dim>::Force &pull,
+                           const dealii::Tensor<1, dim> &pull,
                            const MotionConstraint<dim> *owner,
                            std::array<double, 3> &resultant, State<dim> &state)
   {
-    const double *v0 = before.velocity.v;
-    const double *v1 = state.velocity[before.node].v;
-    double mean[dim], reaction[dim]{};
-    for (unsigned int d = 0; d < dim; ++d)
-      mean[d] = 0.5 * (v0[d] + v1[d]);
+    const dealii::Tensor<1, dim> &v0  = before.velocity;
+    const dealii::Tensor<1, dim> &v1  = state.velocity[before.node];
+    const dealii::Tensor<1, dim> mean = 0.5 * (v0 + v1);
+    dealii::Tensor<1, dim> reaction;
     const auto drag = product<dim>(damping, mean);
     for (unsigned int d = 0; d < dim; ++d)
     {
@@ -208,16 +206,16 @@ namespace quoin
     own.active = true;
     for (const unsigned int c : this->captured_positions)
       for (unsigned int d = 0; d < dim; ++d)
-        own.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
+        own.held.push_back(captured[c].begun[d] - captured[c].force[d]);
   }
 
   template <int dim>
-  std::array<double, dim>
+  dealii::Tensor<1, dim>
   ViscousBoundary<dim>::pull(const unsigned int i, const double vn,
                              const double vs,
                              const ViscousBoundaryState<dim> &own) const
   {
-    std::array<double, dim> result = dashpots[i].pull(vn, vs);
+    dealii::Tensor<1, dim> result = dashpots[i].pull(vn, vs);
     if (!own.held.empty())
       for (unsigned int d = 0; d < dim; ++d)
         result[d] += own.held[dim * i + d];
@@ -266,11 +264,11 @@ namespace quoin
                              std::vector<Dashpot<2>> &);
   template void move_with_dashpot(const StepContext &, const CapturedNode<2> &,
                                   const Dashpot<2>::Damping &,
-                                  const std::array<double, 2> &, State<2> &);
+                                  const dealii::Tensor<1, 2> &, State<2> &);
   template void account_for_dashpot(const StepContext &,
                                     const CapturedNode<2> &,
                                     const Dashpot<2>::Damping &,
-                                    const std::array<double, 2> &,
+                                    const dealii::Tensor<1, 2> &,
                                     const MotionConstraint<2> *,
                                     std::array<double, 3> &, State<2> &);
 } // namespace quoin

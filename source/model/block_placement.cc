@@ -90,7 +90,7 @@ namespace quoin
     for (unsigned int k = 0; k < blocks.size(); ++k)
       for (const unsigned int i : owned_nodes(model, blocks[k]))
       {
-        state.velocity[i] = NodeVector<dim>{};
+        state.velocity[i] = dealii::Tensor<1, dim>();
         for (unsigned int d = 0; d < dim; ++d)
           sums[n * k + d] += state.nodes[i].u[d];
         ++sums[n * k + dim];
@@ -124,7 +124,7 @@ namespace quoin
     {
       const auto nodes = owned_nodes(model, block);
       for (const unsigned int i : nodes)
-        std::fill_n(state.nodes[i].u, dim, 0.);
+        state.nodes[i].u = 0.;
       if (model.nodes().table().is_rigid[block] && !nodes.empty())
         state.template get<RigidBlockStates>()[rigid_number(model, block)]
             = RigidBlockState();

@@ -225,7 +225,7 @@ namespace quoin
         to @p force and, of each body, @p sums. */
     void add_platen(const MotionConstraint<2> &platen, const TimePoint &time,
                     const Model<2> &model, Bodies<2> &bodies,
-                    std::vector<NodeVector<2>> &force,
+                    std::vector<dealii::Tensor<1, 2>> &force,
                     std::vector<double> &sums)
     {
       const NodeExchange &exchange = model.nodes().exchange();
@@ -238,7 +238,7 @@ namespace quoin
       for (const unsigned int i : platen.nodes())
       {
         for (unsigned int d = 0; d < 2; ++d)
-          force[i].v[d] += part[d];
+          force[i][d] += part[d];
         double *sum = &sums[4 * bodies.body(model.nodes().block_of_node(i))];
         sum[2] += part[2] / bodies.length();
         sum[3] += std::abs(part[2]) / bodies.length();
@@ -255,7 +255,8 @@ namespace quoin
       const NodeMap<dim> &nodes    = model.nodes();
       const unsigned int n_blocks  = nodes.table().n_blocks();
       const NodeExchange &exchange = model.nodes().exchange();
-      std::vector<NodeVector<dim>> force(exchange.n_local(), NodeVector<dim>{});
+      std::vector<dealii::Tensor<1, dim>> force(exchange.n_local(),
+                                                dealii::Tensor<1, dim>());
       for (const NodalLoad<dim> *load : loads)
         load->add_loads(time, force.data());
       constexpr unsigned int n = n_motions<dim> + 1;
@@ -270,7 +271,7 @@ namespace quoin
         double square = 0.;
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const double f = force[i].v[d];
+          const double f = force[i][d];
           Eigen::Map<Motion<dim>>(sum)
               += f * row<dim>(d, bodies.arm(nodes.point(i)));
           square += f * f;

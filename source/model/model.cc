@@ -323,7 +323,7 @@ namespace quoin
       for (unsigned int d = 0; d < dim; ++d)
         state.nodes[i].X[d] = node_map.point(i)[d];
     }
-    state.velocity.assign(node_map.n_local(), NodeVector<dim>{});
+    state.velocity.assign(node_map.n_local(), dealii::Tensor<1, dim>());
     block_forces.prepare(state);
     matched_joints.prepare(state);
     if constexpr (dim == 2)

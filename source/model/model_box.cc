@@ -155,7 +155,7 @@ namespace quoin
         for (unsigned int d = 0; d < 2; ++d)
         {
           sums[5 * k + d] += state.nodes[i].X[d] + state.nodes[i].u[d];
-          sums[5 * k + 2 + d] += state.velocity[i].v[d];
+          sums[5 * k + 2 + d] += state.velocity[i][d];
         }
         ++sums[5 * k + 4];
       }

@@ -251,7 +251,7 @@ namespace quoin
 
     private:
       void write();
-      VectorXd displacements(const std::vector<Eigen::Vector2d> &points) const
+      VectorXd displacements(const std::vector<dealii::Point<2>> &points) const
       {
         return static_interior_displacements(
             system.geometry.boundary, system.medium, *context.solution, points);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/problems/boundary_system.h>
@@ -10,7 +11,6 @@
 
 namespace quoin
 {
-  using Eigen::Vector2d;
   using Eigen::VectorXd;
 
   BoundarySystem::BoundarySystem(const Parameters &parameters,
@@ -111,23 +111,25 @@ namespace quoin
     return !sampled.points.empty() || !histories->interior_points().empty();
   }
 
-  std::vector<Vector2d> BoundarySystem::points_in_domain() const
+  std::vector<dealii::Point<2>> BoundarySystem::points_in_domain() const
   {
-    std::vector<Vector2d> points = histories->interior_points();
+    std::vector<dealii::Point<2>> points = histories->interior_points();
     points.insert(points.end(), sampled.points.begin(), sampled.points.end());
     return points;
   }
 
   Eigen::MatrixXd BoundarySystem::domain_displacements(
-      const BoundaryRecord &all, const std::vector<Vector2d> &points,
+      const BoundaryRecord &all, const std::vector<dealii::Point<2>> &points,
       const std::vector<unsigned int> &steps) const
   {
     Eigen::MatrixXd u = interior_displacements(geometry.boundary, medium, all,
                                                points, steps, communicator);
     for (std::size_t k = 0; k < points.size(); ++k)
       for (std::size_t l = 0; l < steps.size(); ++l)
-        u.block<2, 1>(2 * k, l)
-            += waves->displacement(points[k], steps[l] * dt);
+      {
+        auto column = u.col(l);
+        add_to_vector(column, k, waves->displacement(points[k], steps[l] * dt));
+      }
     return u;
   }
 } // namespace quoin

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/problems/boundary_stage.h>
 
 #include <algorithm>
@@ -16,11 +17,11 @@ namespace quoin
     /** Points of the sampled field that are computed at a time. */
     constexpr std::size_t batch_size = 256;
 
-    std::vector<std::array<double, 2>> pairs(const VectorXd &values)
+    std::vector<dealii::Tensor<1, 2>> vectors(const VectorXd &values)
     {
-      std::vector<std::array<double, 2>> result(values.size() / 2);
-      for (std::size_t k = 0; k < result.size(); ++k)
-        result[k] = { { values[2 * k], values[2 * k + 1] } };
+      std::vector<dealii::Tensor<1, 2>> result;
+      for (Eigen::Index k = 0; k < values.size() / 2; ++k)
+        result.push_back(vector_at(values, k));
       return result;
     }
 
@@ -194,11 +195,10 @@ namespace quoin
           if (output.n_written() == 0)
             output.start();
           SampledFields fields;
-          for (const Eigen::Vector2d &x : sampled.points)
-            fields.position.push_back({ { x.x(), x.y() } });
+          fields.position     = sampled.points;
           fields.triangles    = sampled.triangles;
-          fields.displacement = pairs(displacement);
-          fields.velocity     = pairs(velocity);
+          fields.displacement = vectors(displacement);
+          fields.velocity     = vectors(velocity);
           output.write(time, fields);
         });
   }

@@ -167,7 +167,8 @@ namespace quoin
     const StageLoads<dim> &loads = system.solver->stage_loads();
     const NodeMap<dim> &nodes    = *system.nodes;
     const TimePoint time{ load_time, state.stage_start + load_time };
-    AlignedArray<NodeVector<dim>> force(nodes.n_local(), NodeVector<dim>{});
+    AlignedArray<dealii::Tensor<1, dim>> force(nodes.n_local(),
+                                               dealii::Tensor<1, dim>());
     for (const NodalLoad<dim> *load : loads.nodal)
       load->add_loads(time, force.data());
     loads.release.add_loads(time, force.data());
@@ -176,8 +177,8 @@ namespace quoin
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       for (unsigned int d = 0; d < dim && !absent[i]; ++d)
       {
-        result.applied[d] += force[i].v[d];
-        result.size[d] += std::abs(force[i].v[d]);
+        result.applied[d] += force[i][d];
+        result.size[d] += std::abs(force[i][d]);
       }
     for (auto *const sums : { &result.applied, &result.size })
       MPI_Allreduce(MPI_IN_PLACE, sums->data(), 3, MPI_DOUBLE, MPI_SUM,

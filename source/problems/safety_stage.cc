@@ -353,19 +353,14 @@ namespace quoin
       if constexpr (dim == 2)
         if (const BlockContacts *contacts = system.solver->contacts())
           energy += contacts->stored_energy(base);
-      AlignedArray<NodeVector<dim>> forces(base.nodes.size(),
-                                           NodeVector<dim>());
+      AlignedArray<dealii::Tensor<1, dim>> forces(base.nodes.size(),
+                                                  dealii::Tensor<1, dim>());
       for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
         load->add_loads({ 0., base.time }, forces.data());
       model.nodes().exchange().add_to_owners(forces.data());
       double force = 0.;
       for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      {
-        double square = 0.;
-        for (const double f : forces[i].v)
-          square += f * f;
-        force += std::sqrt(square);
-      }
+        force += forces[i].norm();
       energy = dealii::Utilities::MPI::sum(energy, context.run.communicator);
       force  = dealii::Utilities::MPI::sum(force, context.run.communicator);
       return force > 0. && energy > 0.
@@ -378,13 +373,8 @@ namespace quoin
     {
       double largest = 0.;
       for (unsigned int i = 0; i < system.model->nodes().n_owned(); ++i)
-      {
-        const double *now = state.nodes[i].u, *then = base.nodes[i].u;
-        double square = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          square += (now[d] - then[d]) * (now[d] - then[d]);
-        largest = std::max(largest, std::sqrt(square));
-      }
+        largest
+            = std::max(largest, (state.nodes[i].u - base.nodes[i].u).norm());
       return dealii::Utilities::MPI::max(largest, context.run.communicator);
     }
 

@@ -145,7 +145,7 @@ namespace quoin
         duration += stage.duration + step;
     waves = std::make_unique<IncidentWaves>(
         parameters.boundary, far.domain().medium, far.domain().boundary,
-        std::vector<Eigen::Vector2d>(), duration, step);
+        std::vector<dealii::Point<2>>(), duration, step);
     far.set_incident_field([this](const double time)
                            { return waves->displacements(time); },
                            [this](const double begin, const double end)

@@ -405,7 +405,7 @@ namespace quoin
         if (const unsigned int node = bars[b].nodes[i];
             node < node_map->n_owned())
           for (unsigned int d = 0; d < 2; ++d)
-            result += work.force[2 * i + d] * state.velocity[node].v[d];
+            result += work.force[2 * i + d] * state.velocity[node][d];
     }
     return result;
   }
@@ -619,7 +619,7 @@ namespace quoin
       for (unsigned int i = 0; i < nodes.size(); ++i)
         if (nodes[i] < node_map->n_owned())
           for (unsigned int d = 0; d < 2; ++d)
-            forces.force[nodes[i]].v[d] += work.force[2 * i + d];
+            forces.force[nodes[i]][d] += work.force[2 * i + d];
     }
     if (has_friction)
       update_pressure(state);

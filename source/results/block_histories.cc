@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/known_names.h>
 #include <quoin/joint_elements/joint_changes.h>
@@ -14,14 +16,6 @@
 
 namespace quoin
 {
-  namespace
-  {
-    double cross(const double *a, const double *b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-  } // namespace
-
   BlockHistories::BlockHistories(const std::vector<HistoryParameters> &wanted,
                                  const std::vector<NamedBlock> &named,
                                  const Model<2> &model,
@@ -43,7 +37,7 @@ namespace quoin
     if (!pairs.empty())
     {
       before.add<JointHistory>();
-      node_force.resize(model.nodes().n_local(), NodeVector<2>{ { 0., 0. } });
+      node_force.resize(model.nodes().n_local(), dealii::Tensor<1, 2>());
     }
   }
 
@@ -106,23 +100,18 @@ namespace quoin
         const double *v
             = state.get<RigidBlockStates>()[rigid_number(model, block.number)]
                   .velocity;
-        for (unsigned int d = 0; d < 2; ++d)
-          sum.momentum[d] += share * v[d];
+        sum.momentum += share * dealii::Point<2>(v[0], v[1]);
         sum.spin += share * v[2];
       }
       if (block.is_rigid)
         continue;
       for (const unsigned int i : block.nodes)
       {
-        const NodeRecord<2> &node = state.nodes[i];
-        const double m            = share * model.mass()[i];
-        const double *v           = state.velocity[i].v;
-        const double arm[2]
-            = { node.X[0] - block.rest.centroid[0] + node.u[0],
-                node.X[1] - block.rest.centroid[1] + node.u[1] };
-        for (unsigned int d = 0; d < 2; ++d)
-          sum.momentum[d] += m * v[d];
-        sum.spin += m * cross(arm, v);
+        const NodeRecord<2> &node     = state.nodes[i];
+        const double m                = share * model.mass()[i];
+        const dealii::Tensor<1, 2> &v = state.velocity[i];
+        sum.momentum += m * v;
+        sum.spin += m * cross(node.X - block.rest.centroid + node.u, v);
       }
     }
   }
@@ -138,24 +127,20 @@ namespace quoin
       {
         const RigidBlockState &rigid
             = state.get<RigidBlockStates>()[rigid_number(model, block.number)];
-        std::copy_n(rigid.displacement, 2, sum.displacement);
-        sum.sine = rigid.rotation;
+        sum.displacement = vector_at(rigid.displacement, 0);
+        sum.sine         = rigid.rotation;
       }
       if (block.is_rigid)
         continue;
       for (const unsigned int i : block.nodes)
       {
-        const NodeRecord<2> &node = state.nodes[i];
-        const double m            = model.mass()[i];
-        const double r[2]         = { node.X[0] - block.rest.centroid[0],
-                                      node.X[1] - block.rest.centroid[1] };
+        const NodeRecord<2> &node    = state.nodes[i];
+        const double m               = model.mass()[i];
+        const dealii::Tensor<1, 2> r = node.X - block.rest.centroid;
         sum.sine += m * cross(r, node.u);
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          sum.displacement[d] += m * node.u[d];
-          sum.cosine += m * r[d] * node.u[d];
-          sum.square += m * (r[d] + node.u[d]) * (r[d] + node.u[d]);
-        }
+        sum.displacement += m * node.u;
+        sum.cosine += m * (r * node.u);
+        sum.square += m * (r + node.u).norm_square();
       }
     }
     add_velocities(state, 1.);
@@ -165,15 +150,12 @@ namespace quoin
   }
 
   void BlockHistories::add_force(const Pair &pair, const double share,
-                                 const std::array<double, 2> &place,
-                                 const std::array<double, 2> &force,
+                                 const dealii::Tensor<1, 2> &place,
+                                 const dealii::Tensor<1, 2> &force,
                                  Force &sum) const
   {
-    const dealii::Point<2> &centroid = blocks[pair.block].rest.centroid;
-    const double arm[2] = { place[0] - centroid[0], place[1] - centroid[1] };
-    for (unsigned int d = 0; d < 2; ++d)
-      sum[d] += share * force[d];
-    sum[2] += share * cross(arm, force.data());
+    add_to_vector(sum, 0, share * force);
+    sum[2] += share * cross(place - blocks[pair.block].rest.centroid, force);
   }
 
   BlockHistories::Force BlockHistories::joint_force(const Pair &pair)
@@ -188,14 +170,11 @@ namespace quoin
       for (const unsigned int i : is_lower ? joint.lower : joint.upper)
       {
         const NodeRecord<2> &node = before.nodes[i];
-        const double *f           = node_force[i].v;
-        add_force(pair, joint.share,
-                  { node.X[0] + node.u[0], node.X[1] + node.u[1] },
-                  { f[0], f[1] }, sum);
+        add_force(pair, joint.share, node.position(), node_force[i], sum);
       }
       for (const auto &side : { joint.lower, joint.upper })
         for (const unsigned int i : side)
-          node_force[i] = NodeVector<2>{ { 0., 0. } };
+          node_force[i] = dealii::Tensor<1, 2>();
     }
     return sum;
   }
@@ -235,8 +214,8 @@ namespace quoin
     const double *next = all.data();
     for (Sums &sum : sums)
     {
-      sum = { { next[0], next[1] }, next[2], next[3],
-              { next[4], next[5] }, next[6], next[7] };
+      sum = { vector_at(next, 0), next[2], next[3],
+              vector_at(next, 2), next[6], next[7] };
       next += 8;
     }
     for (Force &force : forces)
@@ -268,16 +247,14 @@ namespace quoin
   {
     const Sums &sum   = sums[b];
     const double mass = blocks[b].is_rigid ? 1. : blocks[b].rest.mass;
-    const double u[2]
-        = { sum.displacement[0] / mass, sum.displacement[1] / mass };
+    const dealii::Tensor<1, 2> u = sum.displacement / mass;
     if (!is_velocity)
       return { u[0], u[1], counted[b] };
-    const double v[2] = { sum.momentum[0] / mass, sum.momentum[1] / mass };
-    const double spin
-        = blocks[b].is_rigid
-              ? sum.spin
-              : (sum.spin - mass * cross(u, v))
-                    / (sum.square - mass * (u[0] * u[0] + u[1] * u[1]));
+    const dealii::Tensor<1, 2> v = sum.momentum / mass;
+    const double spin            = blocks[b].is_rigid
+                                       ? sum.spin
+                                       : (sum.spin - mass * cross(u, v))
+                                  / (sum.square - mass * u.norm_square());
     return { v[0], v[1], spin };
   }
 
@@ -291,8 +268,7 @@ namespace quoin
     const double share = h0 > 0. ? h0 / (h0 + h1) : 0.;
     for (Sums &sum : sums)
     {
-      for (double &momentum : sum.momentum)
-        momentum *= 1. - share;
+      sum.momentum *= 1. - share;
       sum.spin *= 1. - share;
     }
     add_velocities(state, share);
@@ -329,7 +305,7 @@ namespace quoin
       if (is_force)
       {
         value = forces[column.pair];
-        value[2] -= cross(position.data(), value.data());
+        value[2] -= cross(vector_at(position, 0), vector_at(value, 0));
       }
       else
         value[2] /= constants::degree;

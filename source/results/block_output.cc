@@ -21,7 +21,7 @@ namespace quoin
     const double c     = std::cos(angle);
     const double s     = std::sin(angle);
     return { { { mean + radius, mean - radius } },
-             { { { { c, s } }, { { -s, c } } } } };
+             { { dealii::Point<2>(c, s), dealii::Point<2>(-s, c) } } };
   }
 
   PrincipalStress<3> principal_stress(const std::array<double, 6> &stress)
@@ -35,9 +35,8 @@ namespace quoin
     PrincipalStress<3> result;
     for (unsigned int i = 0; i < 3; ++i)
     {
-      result.value[i] = pairs[i].first;
-      for (unsigned int d = 0; d < 3; ++d)
-        result.direction[i][d] = pairs[i].second[d];
+      result.value[i]     = pairs[i].first;
+      result.direction[i] = pairs[i].second;
     }
     return result;
   }
@@ -54,7 +53,7 @@ namespace quoin
   {
     const std::size_t n_cells = fields.cells.size();
     std::array<std::vector<double>, dim> value;
-    std::array<std::vector<std::array<double, dim>>, dim> direction;
+    std::array<std::vector<dealii::Tensor<1, dim>>, dim> direction;
     for (unsigned int i = 0; i < dim; ++i)
     {
       value[i].reserve(n_cells);

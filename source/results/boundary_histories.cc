@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/results/boundary_histories.h>
 #include <quoin/base/exceptions.h>
 
@@ -21,7 +23,7 @@ namespace quoin
     {
       Probe probe;
       probe.parameters = wanted;
-      const Eigen::Vector2d point(wanted.point[0], wanted.point[1]);
+      const dealii::Point<2> point(wanted.point[0], wanted.point[1]);
       const NearestElement nearest = nearest_element(geometry.boundary, point);
       const double length
           = geometry.boundary.elements[nearest.element].length();
@@ -87,13 +89,12 @@ namespace quoin
       if (names[geometry.owner[e]] != wanted.curve)
         continue;
       const BoundaryElement &element = geometry.boundary.elements[e];
-      const Eigen::Vector2d part
-          = thickness * element.length() * state.traction.segment<2>(2 * e);
-      const Eigen::Vector2d arm
+      const dealii::Tensor<1, 2> part
+          = thickness * element.length() * vector_at(state.traction, e);
+      const dealii::Tensor<1, 2> arm
           = element.middle()
-            - Eigen::Vector2d(wanted.point[0], wanted.point[1]);
-      sum += wanted.component < 2 ? part[wanted.component]
-                                  : arm.x() * part.y() - arm.y() * part.x();
+            - dealii::Point<2>(wanted.point[0], wanted.point[1]);
+      sum += wanted.component < 2 ? part[wanted.component] : cross(arm, part);
     }
     return sum;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/results/boundary_output.h>
 
 #include <utility>
@@ -25,7 +26,7 @@ namespace quoin
       for (const auto *end : { &fields.a[e], &fields.b[e] })
       {
         grid.cells.push_back(static_cast<std::int32_t>(grid.points.size() / 2));
-        grid.points.insert(grid.points.end(), end->begin(), end->end());
+        append_vector(grid.points, *end);
       }
     }
     grid.cell_data = { { "displacement", 2, flat(fields.displacement) },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/contact/law_fields.h>
 #include <quoin/model/block_placement.h>
@@ -32,25 +33,16 @@ namespace quoin
     {
       const NodeRecord<dim> &node = state.nodes[i];
       number[i]                   = std::int32_t(fields.position.size());
-      const auto vector           = [](const double *components)
-      {
-        typename BlockFields<dim>::Vector result;
-        std::copy_n(components, dim, result.begin());
-        return result;
-      };
-      fields.position.push_back(vector(node.X));
-      fields.displacement.push_back(vector(node.u));
+      fields.position.push_back(node.X);
+      fields.displacement.push_back(node.u);
       if (is_moved)
       {
-        const auto earlier = vector(origin->displacement[i].v);
+        const dealii::Tensor<1, dim> &earlier = origin->displacement[i];
         fields.earlier_displacement.push_back(earlier);
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          fields.position.back()[d] += earlier[d];
-          fields.displacement.back()[d] -= earlier[d];
-        }
+        fields.position.back() += earlier;
+        fields.displacement.back() -= earlier;
       }
-      fields.velocity.push_back(vector(state.velocity[i].v));
+      fields.velocity.push_back(state.velocity[i]);
     };
     for (const BlockPart &part : nodes.blocks().parts)
     {
@@ -131,22 +123,17 @@ namespace quoin
         const NodeRecord<2> &a = state.nodes[segment.lower[k]];
         const NodeRecord<2> &b = state.nodes[segment.upper[k]];
         const unsigned int p   = 2 * i + k;
-        fields.position.push_back(
-            { { 0.5 * (a.X[0] + b.X[0]), 0.5 * (a.X[1] + b.X[1]) } });
-        fields.displacement.push_back(
-            { { 0.5 * (a.u[0] + b.u[0]), 0.5 * (a.u[1] + b.u[1]) } });
+        fields.position.push_back(a.X + 0.5 * (b.X - a.X));
+        fields.displacement.push_back(0.5 * (a.u + b.u));
         if (is_moved)
         {
-          const auto &of_a = origin->displacement[segment.lower[k]];
-          const auto &of_b = origin->displacement[segment.upper[k]];
-          fields.earlier_displacement.emplace_back();
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            const double earlier = 0.5 * (of_a.v[d] + of_b.v[d]);
-            fields.earlier_displacement.back()[d] = earlier;
-            fields.position.back()[d] += earlier;
-            fields.displacement.back()[d] -= earlier;
-          }
+          const dealii::Tensor<1, 2> earlier
+              = 0.5
+                * (origin->displacement[segment.lower[k]]
+                   + origin->displacement[segment.upper[k]]);
+          fields.earlier_displacement.push_back(earlier);
+          fields.position.back() += earlier;
+          fields.displacement.back() -= earlier;
         }
         fields.opening.push_back(gaps[k][0]);
         fields.slip.push_back(gaps[k][1] - slip_at_origin(state, p));
@@ -188,32 +175,22 @@ namespace quoin
       const SpaceJointFrame frame = joint_frame(face, state.nodes.data());
       const auto gaps             = joint_gaps(face, state.nodes.data());
       const auto in_plane         = [&](const double s, const double t)
-      {
-        SpaceJointFields::Vector result;
-        for (unsigned int d = 0; d < 3; ++d)
-          result[d] = s * frame.s[d] + t * frame.t[d];
-        return result;
-      };
+      { return s * frame.s + t * frame.t; };
       fields.joint_set.push_back(face.set);
-      fields.normal.push_back({ { frame.n[0], frame.n[1], frame.n[2] } });
+      fields.normal.push_back(frame.n);
       fields.area.push_back(3. * face.area);
       for (unsigned int k = 0; k < 3; ++k)
       {
         const unsigned int p   = 3 * i + k;
         const NodeRecord<3> &a = state.nodes[face.lower[k]];
         const NodeRecord<3> &b = state.nodes[face.upper[k]];
-        SpaceJointFields::Vector X, u, earlier{};
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          if (is_moved)
-            earlier[d] = 0.5
-                         * (origin->displacement[face.lower[k]].v[d]
-                            + origin->displacement[face.upper[k]].v[d]);
-          X[d] = 0.5 * (a.X[d] + b.X[d]) + earlier[d];
-          u[d] = 0.5 * (a.u[d] + b.u[d]) - earlier[d];
-        }
-        fields.position.push_back(X);
-        fields.displacement.push_back(u);
+        dealii::Tensor<1, 3> earlier;
+        if (is_moved)
+          earlier = 0.5
+                    * (origin->displacement[face.lower[k]]
+                       + origin->displacement[face.upper[k]]);
+        fields.position.push_back(a.X + 0.5 * (b.X - a.X) + earlier);
+        fields.displacement.push_back(0.5 * (a.u + b.u) - earlier);
         if (is_moved)
           fields.earlier_displacement.push_back(earlier);
         fields.opening.push_back(gaps[k][0]);
@@ -252,11 +229,9 @@ namespace quoin
       fields.handed_over.push_back(pairs[i].was_joint);
       for (unsigned int k = 0; k < 2; ++k)
       {
-        const auto &[x0, y0] = contact.reference[k];
-        fields.position.push_back(contact.reference[k]);
+        fields.position.emplace_back(contact.reference[k]);
         fields.displacement.push_back(
-            { { 0.5 * (contact.lower[k][0] + contact.upper[k][0]) - x0,
-                0.5 * (contact.lower[k][1] + contact.upper[k][1]) - y0 } });
+            0.5 * (contact.lower[k] + contact.upper[k]) - contact.reference[k]);
         fields.opening.push_back(contact.opening[k]);
         fields.slip.push_back(contact.slip[k]);
         fields.normal_traction.push_back(pairs[i].points[k].normal_traction);
@@ -285,19 +260,16 @@ namespace quoin
   BoundaryFields boundary_fields(const BoundaryGeometry &geometry,
                                  const BoundaryState &state)
   {
-    const auto pair = [](const Eigen::VectorXd &values, const unsigned int e) {
-      return std::array<double, 2>{ { values[2 * e], values[2 * e + 1] } };
-    };
     BoundaryFields fields;
     for (unsigned int e = 0; e < geometry.boundary.n_elements(); ++e)
     {
       const BoundaryElement &element = geometry.boundary.elements[e];
-      fields.a.push_back({ { element.a.x(), element.a.y() } });
-      fields.b.push_back({ { element.b.x(), element.b.y() } });
+      fields.a.push_back(element.a);
+      fields.b.push_back(element.b);
       fields.boundary.push_back(std::int32_t(geometry.owner[e]));
-      fields.displacement.push_back(pair(state.displacement, e));
-      fields.velocity.push_back(pair(state.velocity, e));
-      fields.traction.push_back(pair(state.traction, e));
+      fields.displacement.push_back(vector_at(state.displacement, e));
+      fields.velocity.push_back(vector_at(state.velocity, e));
+      fields.traction.push_back(vector_at(state.traction, e));
       fields.hoop_stress.push_back(state.hoop_stress[e]);
     }
     return fields;

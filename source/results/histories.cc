@@ -529,7 +529,7 @@ namespace quoin
     case HistoryQuantity::displacement:
       return state.nodes[probe.entity].u[wanted.component];
     case HistoryQuantity::velocity:
-      return state.velocity[probe.entity].v[wanted.component];
+      return state.velocity[probe.entity][wanted.component];
     case HistoryQuantity::stress:
     case HistoryQuantity::principal_stress:
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/results/joint_output.h>
 
 #include <cmath>
@@ -46,26 +47,19 @@ namespace quoin
     VtuGrid grid;
     grid.time      = time;
     grid.cell_type = VtuCellType::line;
-    grid.points.resize(2 * n_points);
     grid.cells.resize(n_points);
     std::vector<std::uint8_t> point_state(n_points), face_state(n_faces);
     for (std::size_t i = 0; i < n_points; ++i)
     {
-      const std::array<double, 2> &X = fields.position[i];
-      const std::array<double, 2> &u = fields.displacement[i];
-
-      for (unsigned int d = 0; d < 2; ++d)
-        grid.points[2 * i + d] = X[d] + u[d];
+      append_vector(grid.points, fields.position[i] + fields.displacement[i]);
       grid.cells[i]  = static_cast<std::int32_t>(i);
       point_state[i] = static_cast<std::uint8_t>(fields.state[i]);
     }
     std::vector<double> length(n_faces);
     for (std::size_t face = 0; face < n_faces; ++face)
     {
-      const std::array<double, 2> &a = fields.position[2 * face];
-      const std::array<double, 2> &b = fields.position[2 * face + 1];
-
-      length[face]     = std::hypot(b[0] - a[0], b[1] - a[1]);
+      length[face]
+          = fields.position[2 * face].distance(fields.position[2 * face + 1]);
       face_state[face] = static_cast<std::uint8_t>(
           worst(fields.state[2 * face], fields.state[2 * face + 1]));
     }
@@ -101,8 +95,7 @@ namespace quoin
     std::vector<std::uint8_t> point_state(n_points), face_state;
     for (std::size_t i = 0; i < n_points; ++i)
     {
-      for (unsigned int d = 0; d < 3; ++d)
-        grid.points[3 * i + d] += fields.displacement[i][d];
+      add_to_vector(grid.points, i, fields.displacement[i]);
       grid.cells.push_back(static_cast<std::int32_t>(i));
       point_state[i] = static_cast<std::uint8_t>(fields.state[i]);
     }

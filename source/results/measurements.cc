@@ -114,7 +114,8 @@ namespace quoin
   double step_bytes(const double n_nodes, const double n_cells)
   {
     constexpr double per_node = 2 * sizeof(NodeRecord<2>)
-                                + 4 * sizeof(NodeVector<2>) + sizeof(double);
+                                + 4 * sizeof(dealii::Tensor<1, 2>)
+                                + sizeof(double);
     return n_nodes * per_node + n_cells * sizeof(std::uint32_t);
   }
 } // namespace quoin

@@ -57,9 +57,9 @@ namespace quoin
     for (unsigned int i = 0; i < displacement.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         if (is_absent[i])
-          displacement[i].v[d] = 0.;
+          displacement[i][d] = 0.;
         else if (reset.displacements)
-          displacement[i].v[d] = state.nodes[i].u[d];
+          displacement[i][d] = state.nodes[i].u[d];
     count_joints_from(model, reset, state);
   }
 

@@ -159,9 +159,9 @@ namespace quoin
     for (auto *values :
          { &rest_segment, &rest_length, &rest_angle, &curvature })
       values->assign(rest.size(), 0.);
-    force.assign(rest.size(), NodeVector<2>{});
+    force.assign(rest.size(), dealii::Tensor<1, 2>());
     viscous = velocity_before = force;
-    point_force.assign(points.size(), NodeVector<2>{});
+    point_force.assign(points.size(), dealii::Tensor<1, 2>());
   }
 
   void Beams::add_free_line(const BeamParameters &beam)
@@ -263,15 +263,15 @@ namespace quoin
     beams.placed.resize(lines.size(), 0);
     beams.nodes.resize(rest.size());
     for (unsigned int i = 0; i < rest.size(); ++i)
-      beams.nodes[i] = { { rest[i][0], rest[i][1] }, { 0., 0. } };
-    beams.velocity.resize(rest.size(), NodeVector<2>{});
+      beams.nodes[i].X = { rest[i][0], rest[i][1] };
+    beams.velocity.resize(rest.size(), dealii::Tensor<1, 2>());
     beams.plastic.resize(rest.size(), 0.);
     beams.moment.resize(rest.size(), 0.);
     beams.attached.resize(points.size(), 0);
-    beams.offset.resize(points.size(), NodeVector<2>{});
+    beams.offset.resize(points.size(), dealii::Tensor<1, 2>());
     beams.interface.resize(points.size(), n_internal_variables);
     beams.block_position.resize(2 * points.size(), 0.);
-    beams.load.resize(rest.size(), NodeVector<2>{});
+    beams.load.resize(rest.size(), dealii::Tensor<1, 2>());
   }
 
   // -- a stage ---------------------------------------------------------------
@@ -344,9 +344,9 @@ namespace quoin
             { write_point(PointOf<decltype(law)>(), beams.interface, p); },
             line.law);
         Place normal;
-        beams.offset[p]     = NodeVector<2>{};
+        beams.offset[p]     = dealii::Tensor<1, 2>();
         const auto at_start = gap(line, p, beams, here.data() + 2 * p, normal);
-        beams.offset[p]     = { { at_start[0], at_start[1] } };
+        beams.offset[p] = dealii::Tensor<1, 2>({ at_start[0], at_start[1] });
       }
     beams.placed[beam] = 1;
   }
@@ -668,8 +668,8 @@ namespace quoin
     const auto &node   = beams.nodes[point.at];
     const Place g{ { place[0] - node.X[0] - node.u[0],
                      place[1] - node.X[1] - node.u[1] } };
-    return { { normal[0] * g[0] + normal[1] * g[1] - beams.offset[p].v[0],
-               t[0] * g[0] + t[1] * g[1] - beams.offset[p].v[1] } };
+    return { { normal[0] * g[0] + normal[1] * g[1] - beams.offset[p][0],
+               t[0] * g[0] + t[1] * g[1] - beams.offset[p][1] } };
   }
 
   // -- a step ----------------------------------------------------------------
@@ -678,8 +678,8 @@ namespace quoin
                          const NodeForces<2> &forces)
   {
     BeamState &beams = state.get<BeamState>();
-    std::fill(force.begin(), force.end(), NodeVector<2>{});
-    std::fill(point_force.begin(), point_force.end(), NodeVector<2>{});
+    std::fill(force.begin(), force.end(), dealii::Tensor<1, 2>());
+    std::fill(point_force.begin(), point_force.end(), dealii::Tensor<1, 2>());
     beams.stored_strain = beams.stored_joint = 0.;
     beams.block_position                     = block_positions(state);
     EnergyAccounts lost;
@@ -694,20 +694,20 @@ namespace quoin
         {
           const auto f = load(lines[b], i, given);
           for (unsigned int d = 0; d < 2; ++d)
-            force[i].v[d] += f[d];
+            force[i][d] += f[d];
         }
       }
     for (unsigned int p = 0; p < points.size(); ++p)
       if (points[p].node != NodeMap<2>::none)
         for (unsigned int d = 0; d < 2; ++d)
-          forces.force[points[p].node].v[d] -= point_force[p].v[d];
+          forces.force[points[p].node][d] -= point_force[p][d];
     if (is_first_rank)
       state.energy += lost;
   }
 
   double Beams::add_internal_forces(const Line &line, BeamState &beams,
                                     EnergyAccounts &energy,
-                                    NodeVector<2> *sum) const
+                                    dealii::Tensor<1, 2> *sum) const
   {
     double size = 0.;
     for (unsigned int i = line.begin; i < line.end; ++i)
@@ -736,8 +736,8 @@ namespace quoin
                             axial * s.direction[1] - shear * s.direction[0] };
       for (unsigned int d = 0; d < 2; ++d)
       {
-        sum[a].v[d] += f[d];
-        sum[b].v[d] -= f[d];
+        sum[a][d] += f[d];
+        sum[b][d] -= f[d];
       }
     }
     return size;
@@ -745,8 +745,8 @@ namespace quoin
 
   double Beams::add_interface_forces(const Line &line, const State<2> &state,
                                      BeamState &beams, EnergyAccounts &energy,
-                                     NodeVector<2> *sum,
-                                     NodeVector<2> *by_point) const
+                                     dealii::Tensor<1, 2> *sum,
+                                     dealii::Tensor<1, 2> *by_point) const
   {
     double size      = 0.;
     const auto visit = [&](const auto &law)
@@ -776,16 +776,16 @@ namespace quoin
           const double f
               = points[p].area
                 * (point.normal_traction * n[d] + point.shear_traction * t[d]);
-          sum[points[p].at].v[d] += f;
-          by_point[p].v[d] = f;
+          sum[points[p].at][d] += f;
+          by_point[p][d] = f;
           size += std::abs(f);
         }
         // The frame turns with the segments at the node, by the mean of their
         // angles: what keeps the balance of moments and energy over a gap.
         const double couple
             = points[p].area * points[p].side
-              * (point.normal_traction * (slip + beams.offset[p].v[1])
-                 - point.shear_traction * (opening + beams.offset[p].v[0]));
+              * (point.normal_traction * (slip + beams.offset[p][1])
+                 - point.shear_traction * (opening + beams.offset[p][0]));
         const unsigned int at = points[p].at;
         const bool before = has_before(line, at), after = has_after(line, at);
         const auto turn_segment = [&](const unsigned int first)
@@ -793,10 +793,10 @@ namespace quoin
           const Segment s = segment(line, first, beams);
           const double f  = couple / (before && after ? 2. : 1.) / s.length;
           const unsigned int last = next(line, first);
-          sum[first].v[0] += f * s.direction[1];
-          sum[first].v[1] -= f * s.direction[0];
-          sum[last].v[0] -= f * s.direction[1];
-          sum[last].v[1] += f * s.direction[0];
+          sum[first][0] += f * s.direction[1];
+          sum[first][1] -= f * s.direction[0];
+          sum[last][0] -= f * s.direction[1];
+          sum[last][1] += f * s.direction[0];
         };
         if (before)
           turn_segment(previous(line, at));
@@ -875,13 +875,13 @@ namespace quoin
         work.applied += std::hypot(loads.back()[0], loads.back()[1]);
         for (unsigned int d = 0; d < 2; ++d)
         {
-          given_before += loads.back()[d] * beams.velocity[i].v[d];
+          given_before += loads.back()[d] * beams.velocity[i][d];
           if (!held(line, i, d))
             continue;
-          work.applied += std::abs(force[i].v[d]);
-          force[i].v[d] = 0.;
+          work.applied += std::abs(force[i][d]);
+          force[i][d] = 0.;
         }
-        work.unbalanced += std::hypot(force[i].v[0], force[i].v[1]);
+        work.unbalanced += std::hypot(force[i][0], force[i][1]);
       }
       if (!damped)
         advance_nodes(line.begin, line.end, beams.nodes.data(),
@@ -900,7 +900,7 @@ namespace quoin
       }
       for (unsigned int i = line.begin; i < line.end; ++i)
         for (unsigned int d = 0; d < 2; ++d)
-          given_after += loads[i - line.begin][d] * beams.velocity[i].v[d];
+          given_after += loads[i - line.begin][d] * beams.velocity[i][d];
     }
     if (!is_first_rank)
       return Work();
@@ -917,9 +917,9 @@ namespace quoin
       for (unsigned int i = 0; i < mass.size(); ++i)
         for (unsigned int d = 0; d < 2; ++d)
         {
-          const double v = velocity_before[i].v[d];
+          const double v = velocity_before[i][d];
           energy
-              += 0.5 * mass[i] * v * (v + share * (beams.velocity[i].v[d] - v));
+              += 0.5 * mass[i] * v * (v + share * (beams.velocity[i][d] - v));
         }
     return energy;
   }
@@ -930,8 +930,7 @@ namespace quoin
     double energy          = 0.;
     if (is_first_rank)
       for (unsigned int i = 0; i < mass.size(); ++i)
-        for (const double v : beams.velocity[i].v)
-          energy += 0.5 * mass[i] * v * v;
+        energy += 0.5 * mass[i] * beams.velocity[i].norm_square();
     return energy;
   }
 
@@ -943,8 +942,7 @@ namespace quoin
       for (unsigned int i = 0; i < mass.size(); ++i)
         for (unsigned int d = 0; d < 2; ++d)
         {
-          const double change
-              = beams.velocity[i].v[d] - velocity_before[i].v[d];
+          const double change = beams.velocity[i][d] - velocity_before[i][d];
           sum += mass[i] * change * change;
         }
     return sum;
@@ -955,13 +953,12 @@ namespace quoin
     const BeamState &beams = state.get<BeamState>();
     for (const Line &line : lines)
       for (unsigned int i = line.begin; i < line.end; ++i)
-        for (const double u : beams.nodes[i].u)
-          if (!(std::abs(u) < 1e100)) // a comparison with NaN is false
-            throw RunError(text_of(
-                "the motion of the beam '", line.given.name,
-                "' is no longer finite, found at time ", state.time,
-                " s. Look at its loads, or reduce 'Share of critical time "
-                "step'. The last checkpoint is kept."));
+        if (!(beams.nodes[i].u.norm() < 1e100)) // so with NaN, too
+          throw RunError(text_of(
+              "the motion of the beam '", line.given.name,
+              "' is no longer finite, found at time ", state.time,
+              " s. Look at its loads, or reduce 'Share of critical time "
+              "step'. The last checkpoint is kept."));
   }
 
   // -- results ---------------------------------------------------------------

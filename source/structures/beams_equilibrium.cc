@@ -176,8 +176,7 @@ namespace quoin
         const Eigen::Vector2d n(frame.col(0)), t(frame.col(1));
         const FrameTerms terms(
             n, t, points[p].side,
-            (opening + now.offset[p].v[0]) * n
-                + (slip + now.offset[p].v[1]) * t,
+            (opening + now.offset[p][0]) * n + (slip + now.offset[p][1]) * t,
             points[p].area * now.interface.normal_traction[p],
             points[p].area * now.interface.shear_traction[p], part);
         Turning turning;
@@ -227,7 +226,7 @@ namespace quoin
 
   bool Beams::settle(const Line &line, const TimePoint &time,
                      const State<2> &marks, BeamState &beams,
-                     EnergyAccounts &energy, NodeVector<2> *by_point,
+                     EnergyAccounts &energy, dealii::Tensor<1, 2> *by_point,
                      Eigen::MatrixXd *condensed) const
   {
     const unsigned int n   = 2 * (line.end - line.begin);
@@ -242,7 +241,7 @@ namespace quoin
     }
     BeamState now;
     EnergyAccounts lost;
-    AlignedArray<NodeVector<2>> sum(rest.size(), NodeVector<2>{});
+    AlignedArray<dealii::Tensor<1, 2>> sum(rest.size(), dealii::Tensor<1, 2>());
     double size = 0.;
     // The unbalanced force [N] at the displacements u.
     const auto evaluate = [&](const Eigen::VectorXd &u)
@@ -251,7 +250,7 @@ namespace quoin
       lost = EnergyAccounts();
       for (unsigned int i = 0; i < n; ++i)
         now.nodes[line.begin + i / 2].u[i % 2] = u[i];
-      std::fill(sum.begin(), sum.end(), NodeVector<2>{});
+      std::fill(sum.begin(), sum.end(), dealii::Tensor<1, 2>());
       size = loaded;
       size += add_internal_forces(line, now, lost, sum.data());
       size
@@ -259,7 +258,7 @@ namespace quoin
       for (unsigned int i = 0; i < n; ++i)
         residual[i] = held(line, line.begin + i / 2, i % 2)
                           ? 0.
-                          : sum[line.begin + i / 2].v[i % 2] + loads[i];
+                          : sum[line.begin + i / 2][i % 2] + loads[i];
       double square = 0.;
       for (unsigned int i = 0; i < n; ++i)
         square += residual[i] * residual[i];
@@ -297,9 +296,9 @@ namespace quoin
     }
     for (unsigned int i = 0; i < n; ++i)
     {
-      NodeVector<2> &last = now.load[line.begin + i / 2];
-      energy.external += 0.5 * (last.v[i % 2] + loads[i]) * (u[i] - start[i]);
-      last.v[i % 2] = loads[i];
+      dealii::Tensor<1, 2> &last = now.load[line.begin + i / 2];
+      energy.external += 0.5 * (last[i % 2] + loads[i]) * (u[i] - start[i]);
+      last[i % 2] = loads[i];
     }
     energy += lost;
     beams = now;
@@ -328,8 +327,7 @@ namespace quoin
             t(points[p].side * normal[1], -points[p].side * normal[0]);
         const FrameTerms terms(
             n, t, points[p].side,
-            (opening + now.offset[p].v[0]) * n
-                + (slip + now.offset[p].v[1]) * t,
+            (opening + now.offset[p][0]) * n + (slip + now.offset[p][1]) * t,
             points[p].area * now.interface.normal_traction[p],
             points[p].area * now.interface.shear_traction[p], part[k]);
         Turning turning;
@@ -363,13 +361,14 @@ namespace quoin
   }
 
   bool Beams::settle(const TimePoint &time, const State<2> &committed,
-                     State<2> &state, NodeVector<2> *block_force,
+                     State<2> &state, dealii::Tensor<1, 2> *block_force,
                      Condensed *stiffness) const
   {
     BeamState &beams     = state.get<BeamState>();
     beams.block_position = block_positions(state);
     beams.stored_strain = beams.stored_joint = 0.;
-    AlignedArray<NodeVector<2>> by_point(points.size(), NodeVector<2>{});
+    AlignedArray<dealii::Tensor<1, 2>> by_point(points.size(),
+                                                dealii::Tensor<1, 2>());
     EnergyAccounts energy;
     if (stiffness)
       stiffness->assign(lines.size(), Eigen::MatrixXd());
@@ -381,7 +380,7 @@ namespace quoin
     for (unsigned int p = 0; p < points.size(); ++p)
       if (points[p].node != NodeMap<2>::none)
         for (unsigned int d = 0; d < 2; ++d)
-          block_force[points[p].node].v[d] -= by_point[p].v[d];
+          block_force[points[p].node][d] -= by_point[p][d];
     if (is_first_rank)
       state.energy += energy;
     return true;

@@ -27,7 +27,7 @@ namespace quoin
     /** Overlapping columns, each a step later than the one before. */
     using Shifted = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
 
-    double distance(const BoundaryElement &element, const Eigen::Vector2d &x)
+    double distance(const BoundaryElement &element, const dealii::Point<2> &x)
     {
       return distance_to_segment(x, element.a, element.b);
     }

@@ -90,17 +90,17 @@ namespace quoin
   }
 
   TimeKernels element_integrals(const ElasticMedium &medium, const double time,
-                                const Eigen::Vector2d &source,
+                                const dealii::Point<2> &source,
                                 const BoundaryElement &element)
   {
-    const Eigen::Vector2d n   = element.normal();
-    const Eigen::Vector2d t   = element.tangent();
-    const Eigen::Vector2d arm = element.a - source;
-    const double s1           = arm.dot(t);
-    const double length       = element.length();
+    const dealii::Tensor<1, 2> n   = element.normal();
+    const dealii::Tensor<1, 2> t   = element.tangent();
+    const dealii::Tensor<1, 2> arm = element.a - source;
+    const double s1                = arm * t;
+    const double length            = element.length();
 
     // A source on the element's line to within rounding is on it.
-    double d = arm.dot(n);
+    double d = arm * n;
     if (std::abs(d) < 8. * std::numeric_limits<double>::epsilon()
                           * (length + arm.norm() + source.norm()))
       d = 0.;
@@ -108,7 +108,7 @@ namespace quoin
     TimeKernels result
         = local_element_integrals(medium, time, d, s1, s1 + length);
     Eigen::Matrix2d frame;
-    frame << t, n;
+    frame << t[0], n[0], t[1], n[1];
     result.A = frame * result.A * frame.transpose();
     result.B = frame * result.B * frame.transpose();
     return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/plane_geometry.h>
 #include <quoin/elastodynamics/cut_kernels.h>
@@ -18,7 +19,6 @@ namespace quoin
   namespace
   {
     using Eigen::Matrix2d;
-    using Eigen::Vector2d;
 
     /** Distance from the source and the fronts, in units of the longer element,
         beyond which quadrature is used for both integrals. */
@@ -27,7 +27,8 @@ namespace quoin
         nearly singular at all times. */
     constexpr double near_distance = 1.6;
 
-    bool same(const Vector2d &a, const Vector2d &b, const double length)
+    bool same(const dealii::Point<2> &a, const dealii::Point<2> &b,
+              const double length)
     {
       return (a - b).norm() < 1e-10 * length;
     }
@@ -201,10 +202,10 @@ namespace quoin
         cuts[n_cuts++] = s;
     };
     cuts[n_cuts++] = 0.;
-    for (const Vector2d &end : { inner.a, inner.b })
+    for (const dealii::Point<2> &end : { inner.a, inner.b })
     {
-      const double foot   = (end - outer.a).dot(outer.tangent);
-      const double height = (end - outer.a).dot(outer.normal);
+      const double foot   = (end - outer.a) * outer.tangent;
+      const double height = (end - outer.a) * outer.normal;
       if (close)
         add_cut(foot);
       for (const double c : { medium.c1, medium.c2 })
@@ -217,8 +218,8 @@ namespace quoin
         }
     }
     // Where the front is tangent to the inner element.
-    const double slope  = outer.tangent.dot(inner.normal);
-    const double offset = (outer.a - inner.a).dot(inner.normal);
+    const double slope  = outer.tangent * inner.normal;
+    const double offset = (outer.a - inner.a) * inner.normal;
     if (std::abs(slope) > 1e-12)
       for (const double c : { medium.c1, medium.c2 })
       {
@@ -333,14 +334,15 @@ namespace quoin
     double sum_x3 = 0., sum_x2y = 0., sum_xy2 = 0., sum_y3 = 0.;
     for (unsigned k = 0; k < n_points; ++k)
     {
-      const Vector2d source = E.a + E.length * rule.points[k] * E.tangent;
+      const dealii::Point<2> source
+          = E.a + E.length * rule.points[k] * E.tangent;
       for (unsigned l = 0; l < n_points; ++l)
       {
         const double weight = rule.weights[k] * rule.weights[l];
-        const Vector2d distance
+        const dealii::Tensor<1, 2> distance
             = F.a + F.length * rule.points[l] * F.tangent - source;
         const double r = distance.norm();
-        const double x = distance.x() / r, y = distance.y() / r;
+        const double x = distance[0] / r, y = distance[1] / r;
         const RadialTerms terms(medium, time, r);
         a_cos += weight * terms.a * (x * x - y * y);
         a_sin += weight * terms.a * 2. * x * y;
@@ -359,15 +361,13 @@ namespace quoin
     Matrix2d A;
     A << b + a_cos, a_sin, a_sin, b - a_cos;
     A /= 4. * constants::pi * medium.density;
-    const auto B = [&](const Vector2d &n) -> Matrix2d
+    const auto B = [&](const dealii::Tensor<1, 2> &n) -> Matrix2d
     {
-      const Vector2d y(yx, yy), z(zx, zy);
+      const dealii::Tensor<1, 2> y({ yx, yy }), z({ zx, zy });
       Matrix2d cubic;
-      cubic << sum_x3 * n.x() + sum_x2y * n.y(),
-          sum_x2y * n.x() + sum_xy2 * n.y(), sum_x2y * n.x() + sum_xy2 * n.y(),
-          sum_xy2 * n.x() + sum_y3 * n.y();
-      return (cubic + y.dot(n) * Matrix2d::Identity() + y * n.transpose()
-              + n * z.transpose())
+      cubic << sum_x3 * n[0] + sum_x2y * n[1], sum_x2y * n[0] + sum_xy2 * n[1],
+          sum_x2y * n[0] + sum_xy2 * n[1], sum_xy2 * n[0] + sum_y3 * n[1];
+      return (cubic + (y * n) * Matrix2d::Identity() + dyad(y, n) + dyad(n, z))
              / (4. * constants::pi);
     };
     return { F.length * A, F.length * B(F.normal).transpose(), E.length * A,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/interior_points.h>
@@ -14,7 +16,6 @@ namespace quoin
   namespace
   {
     using Eigen::Matrix2d;
-    using Eigen::Vector2d;
 
     /**
      * The kernels of a point and an element for all lags, each component one
@@ -30,7 +31,7 @@ namespace quoin
       }
 
       void compute(const BoundaryElement &element, const ElasticMedium &medium,
-                   const Vector2d &point, const BoundaryRecord &record)
+                   const dealii::Point<2> &point, const BoundaryRecord &record)
       {
         const double dt = record.time_step;
         // Lag n sees waves until (n + 1) dt. The margin is for rounding: the
@@ -39,12 +40,12 @@ namespace quoin
                                / (medium.c1 * dt);
         first = arrival < n_lags ? unsigned(arrival * (1. - 1e-12)) : n_lags;
 
-        const Vector2d t = element.tangent(), n = element.normal();
-        const Vector2d arm = element.a - point;
-        const double d = arm.dot(n), s = arm.dot(t);
+        const dealii::Tensor<1, 2> t = element.tangent(), n = element.normal();
+        const dealii::Tensor<1, 2> arm = element.a - point;
+        const double d = arm * n, s = arm * t;
         const double length = element.length();
         Matrix2d frame;
-        frame << t, n;
+        frame << t[0], n[0], t[1], n[1];
         TimeKernels last{ Matrix2d::Zero(), Matrix2d::Zero() };
         Matrix2d B_before = Matrix2d::Zero();
         for (unsigned lag = first; lag < n_lags; ++lag)
@@ -70,10 +71,10 @@ namespace quoin
       }
 
       /** What the element contributes at the end of a step. */
-      Vector2d at_step(const unsigned step, const unsigned element,
-                       const BoundaryRecord &record) const
+      dealii::Tensor<1, 2> at_step(const unsigned step, const unsigned element,
+                                   const BoundaryRecord &record) const
       {
-        Vector2d sum = Vector2d::Zero();
+        dealii::Tensor<1, 2> sum;
         if (step <= first)
           return sum;
         const Eigen::Index n = step - first, begin = n_lags - step;
@@ -95,12 +96,10 @@ namespace quoin
     };
   } // namespace
 
-  Eigen::MatrixXd interior_displacements(const Boundary &boundary,
-                                         const ElasticMedium &medium,
-                                         const BoundaryRecord &record,
-                                         const std::vector<Vector2d> &points,
-                                         const std::vector<unsigned> &steps,
-                                         const MPI_Comm communicator)
+  Eigen::MatrixXd interior_displacements(
+      const Boundary &boundary, const ElasticMedium &medium,
+      const BoundaryRecord &record, const std::vector<dealii::Point<2>> &points,
+      const std::vector<unsigned> &steps, const MPI_Comm communicator)
   {
     Eigen::MatrixXd result
         = Eigen::MatrixXd::Zero(2 * points.size(), steps.size());
@@ -115,7 +114,10 @@ namespace quoin
       {
         series.compute(boundary.elements[e], medium, points[k], record);
         for (std::size_t l = 0; l < steps.size(); ++l)
-          result.block<2, 1>(2 * k, l) += series.at_step(steps[l], e, record);
+        {
+          auto column = result.col(l);
+          add_to_vector(column, k, series.at_step(steps[l], e, record));
+        }
       }
     // Others have added nothing to a point.
     MPI_Allreduce(MPI_IN_PLACE, result.data(), int(result.size()), MPI_DOUBLE,
@@ -123,9 +125,11 @@ namespace quoin
     return result;
   }
 
-  Eigen::VectorXd static_interior_displacements(
-      const Boundary &boundary, const ElasticMedium &medium,
-      const StaticSolution &solution, const std::vector<Vector2d> &points)
+  Eigen::VectorXd
+  static_interior_displacements(const Boundary &boundary,
+                                const ElasticMedium &medium,
+                                const StaticSolution &solution,
+                                const std::vector<dealii::Point<2>> &points)
   {
     Eigen::VectorXd result(2 * points.size());
     for (std::size_t k = 0; k < points.size(); ++k)
@@ -134,7 +138,7 @@ namespace quoin
           = static_point_matrices(boundary, medium, points[k]);
       result.segment<2>(2 * k) = matrices.G * solution.traction
                                  - matrices.H * solution.displacement
-                                 + solution.constant;
+                                 + to_eigen(solution.constant);
     }
     return result;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/laplace_matrices.h>
 
@@ -16,7 +17,8 @@ namespace quoin
   namespace
   {
     using Complex = std::complex<double>;
-    using Point   = Eigen::Vector2d;
+    using Vector  = dealii::Tensor<1, 2>;
+    using Point   = dealii::Point<2>;
 
     /** Part of an element; a single point if both ends are the same. */
     struct Segment
@@ -66,8 +68,8 @@ namespace quoin
     class PairIntegrator
     {
     public:
-      PairIntegrator(const LaplaceKernels &kernels, const Point &normal_e,
-                     const Point &normal_f, const bool both_ways)
+      PairIntegrator(const LaplaceKernels &kernels, const Vector &normal_e,
+                     const Vector &normal_f, const bool both_ways)
         : kernels_(kernels), wave_number_(std::abs(kernels.k2())),
           normal_e_(normal_e), normal_f_(normal_f), both_ways_(both_ways)
       {
@@ -101,16 +103,16 @@ namespace quoin
     private:
       const LaplaceKernels &kernels_;
       const double wave_number_;
-      const Point normal_e_, normal_f_;
+      const Vector normal_e_, normal_f_;
       const bool both_ways_;
       PairIntegral sum_;
 
-      void add(const Point &d, const double weight)
+      void add(const Vector &d, const double weight)
       {
         const double r                 = d.norm();
         const LaplaceKernels::Radial f = kernels_.radial(r);
-        const Point n                  = d / r;
-        const double xx = n.x() * n.x(), xy = n.x() * n.y(), yy = n.y() * n.y();
+        const Vector n                 = d / r;
+        const double xx = n[0] * n[0], xy = n[0] * n[1], yy = n[1] * n[1];
         sum_.U(0, 0) += weight * (f.u_delta + f.u_rr * xx);
         sum_.U(0, 1) += weight * (f.u_rr * xy);
         sum_.U(1, 1) += weight * (f.u_delta + f.u_rr * yy);
@@ -119,17 +121,17 @@ namespace quoin
           add_traction(f, -n, normal_e_, weight, sum_.P_reverse);
       }
 
-      static void add_traction(const LaplaceKernels::Radial &f, const Point &r,
-                               const Point &n, const double weight,
+      static void add_traction(const LaplaceKernels::Radial &f, const Vector &r,
+                               const Vector &n, const double weight,
                                Eigen::Matrix2cd &sum)
       {
-        const double rn = r.dot(n);
+        const double rn = r * n;
         for (unsigned i = 0; i < 2; ++i)
           for (unsigned j = 0; j < 2; ++j)
             sum(i, j)
                 += weight
-                   * (f.p_sum * ((i == j ? rn : 0.) + r(i) * n(j))
-                      + f.p_nr * (n(i) * r(j)) + f.p_rrn * (r(i) * r(j) * rn));
+                   * (f.p_sum * ((i == j ? rn : 0.) + r[i] * n[j])
+                      + f.p_nr * (n[i] * r[j]) + f.p_rrn * (r[i] * r[j] * rn));
       }
 
       /**
@@ -170,8 +172,8 @@ namespace quoin
         {
           if (depth > 60)
             throw InputError("Boundary elements cross or overlap near ("
-                             + std::to_string(f.a.x()) + ", "
-                             + std::to_string(f.a.y())
+                             + std::to_string(f.a[0]) + ", "
+                             + std::to_string(f.a[1])
                              + ") m. Boundaries may meet only end to end: move "
                                "one of them.");
           for (const unsigned k : { 0u, 1u })
@@ -200,11 +202,11 @@ namespace quoin
       void integrate_corner(const Point &corner, const Point &end_e,
                             const Point &end_f)
       {
-        const double size_e = (end_e - corner).norm();
-        const double size_f = (end_f - corner).norm();
-        const double h      = std::min(size_e, size_f);
-        const Point along_e = (h / size_e) * (end_e - corner);
-        const Point along_f = (h / size_f) * (end_f - corner);
+        const double size_e  = (end_e - corner).norm();
+        const double size_f  = (end_f - corner).norm();
+        const double h       = std::min(size_e, size_f);
+        const Vector along_e = (h / size_e) * (end_e - corner);
+        const Vector along_f = (h / size_f) * (end_f - corner);
         integrate_wedge(along_e, along_f, h, 0., 1., 0);
         // Then what is left of the longer one.
         if (size_f > h * (1. + 1e-12))
@@ -214,12 +216,12 @@ namespace quoin
       }
 
       /** Adds the integral from b = @p begin to @p end. */
-      void integrate_wedge(const Point &along_e, const Point &along_f,
+      void integrate_wedge(const Vector &along_e, const Vector &along_f,
                            const double h, const double begin, const double end,
                            const unsigned depth)
       {
         // In the complex plane of b the distance vanishes at exp(+-i angle).
-        const double cosine = along_e.dot(along_f) / (h * h);
+        const double cosine = (along_e * along_f) / (h * h);
         const double nearest
             = std::min(1., std::max(begin, std::min(end, cosine)));
         const double gap = std::sqrt(
@@ -283,8 +285,8 @@ namespace quoin
         along += weight * (f.u_delta + f.u_rr);
         across += weight * f.u_delta;
       }
-      const Point t = element.tangent(), n = element.normal();
-      return along * (t * t.transpose()) + across * (n * n.transpose());
+      const Vector t = element.tangent(), n = element.normal();
+      return along * dyad(t, t) + across * dyad(n, n);
     }
   } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/static_solver.h>
 
@@ -46,14 +47,14 @@ namespace quoin
     free_rigid_motions(const Boundary &boundary, const double diameter,
                        const std::vector<bool> &displacement_known)
     {
-      const unsigned n             = unsigned(boundary.n_elements());
-      const Eigen::Vector2d centre = boundary.elements.front().middle();
+      const unsigned n              = unsigned(boundary.n_elements());
+      const dealii::Point<2> centre = boundary.elements.front().middle();
       Eigen::MatrixXd motions(2 * n, 3);
       for (unsigned e = 0; e < n; ++e)
       {
-        const Eigen::Vector2d x
+        const dealii::Tensor<1, 2> x
             = (boundary.elements[e].middle() - centre) / diameter;
-        motions.middleRows<2>(2 * e) << 1., 0., -x.y(), 0., 1., x.x();
+        motions.middleRows<2>(2 * e) << 1., 0., -x[1], 0., 1., x[0];
       }
       Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
       for (unsigned k = 0; k < 2 * n; ++k)
@@ -118,7 +119,7 @@ namespace quoin
       }
     for (unsigned i = 0; i < n_constants; ++i)
     {
-      double force = bounded ? 0. : conditions.net_force(i);
+      double force = bounded ? 0. : conditions.net_force[i];
       for (unsigned k = i; k < n; k += 2)
       {
         system(k, n + i) = -1.;
@@ -145,14 +146,14 @@ namespace quoin
     const Eigen::VectorXd x = factors.solve(rhs);
 
     StaticSolution solution{ Eigen::VectorXd(n), Eigen::VectorXd(n),
-                             Eigen::Vector2d::Zero() };
+                             dealii::Tensor<1, 2>() };
     for (unsigned k = 0; k < n; ++k)
     {
       solution.displacement(k) = known_u[k] ? conditions.values(k) : x(k);
       solution.traction(k) = known_u[k] ? unit * x(k) : conditions.values(k);
     }
     if (n_constants > 0)
-      solution.constant = x.segment<2>(n);
+      solution.constant = vector_at(x, n / 2);
     return solution;
   }
 } // namespace quoin

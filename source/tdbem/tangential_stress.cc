@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/constants.h>
 #include <quoin/tdbem/tangential_stress.h>
 
@@ -11,7 +12,6 @@ namespace quoin
 {
   namespace
   {
-    using Eigen::Vector2d;
 
     constexpr unsigned none = -1;
 
@@ -48,7 +48,7 @@ namespace quoin
 
       bool is_corner(const unsigned e, const unsigned f) const
       {
-        return elements[e].tangent().dot(elements[f].tangent())
+        return elements[e].tangent() * elements[f].tangent()
                < std::cos(30.001 * constants::degree);
       }
 
@@ -61,8 +61,9 @@ namespace quoin
 
     /** Where the middle of element @p e is on the curve that the elements
         stand for. */
-    Vector2d place_on_curve(const std::vector<BoundaryElement> &elements,
-                            const Neighbours &neighbours, const unsigned e)
+    dealii::Point<2>
+    place_on_curve(const std::vector<BoundaryElement> &elements,
+                   const Neighbours &neighbours, const unsigned e)
     {
       double turn = 0., n_turns = 0.;
       const auto add_turn = [&](const unsigned first, const unsigned second)
@@ -72,12 +73,12 @@ namespace quoin
           return;
         // Positive to the left, where the curve bulges along the normal.
         turn += -std::asin(std::clamp(
-            elements[second].tangent().dot(elements[first].normal()), -1., 1.));
+            elements[second].tangent() * elements[first].normal(), -1., 1.));
         n_turns += 1.;
       };
       add_turn(neighbours.before[e], e);
       add_turn(e, neighbours.after[e]);
-      Vector2d place = elements[e].middle();
+      dealii::Point<2> place = elements[e].middle();
       if (n_turns > 0.)
         place += elements[e].length() * turn / n_turns / 12.
                  * elements[e].normal();
@@ -146,7 +147,7 @@ namespace quoin
 
     const auto &elements = boundary.elements;
     const Neighbours neighbours(elements);
-    std::vector<Vector2d> places;
+    std::vector<dealii::Point<2>> places;
     for (unsigned e = 0; e < elements.size(); ++e)
       places.push_back(place_on_curve(elements, neighbours, e));
 
@@ -154,15 +155,13 @@ namespace quoin
     {
       const Chosen chosen = choose(elements, neighbours, e);
       const auto slopes   = derivatives(chosen.s, chosen.n);
-      Vector2d x_prime    = Vector2d::Zero();
+      dealii::Tensor<1, 2> x_prime;
       for (unsigned k = 0; k < chosen.n; ++k)
         x_prime += slopes[k] * places[chosen.elements[k]];
       Stencil stencil{ chosen.elements, {} };
       for (unsigned k = 0; k < 3; ++k)
-        stencil.weights[k]
-            = chosen.n > 1
-                  ? Vector2d(slopes[k] / x_prime.squaredNorm() * x_prime)
-                  : Vector2d(Vector2d::Zero());
+        if (chosen.n > 1)
+          stencil.weights[k] = slopes[k] / x_prime.norm_square() * x_prime;
       stencils.push_back(stencil);
       normals.push_back(elements[e].normal());
     }
@@ -176,10 +175,10 @@ namespace quoin
     {
       double strain = 0.;
       for (unsigned k = 0; k < 3; ++k)
-        strain += stencils[e].weights[k].dot(
-            u.segment<2>(2 * stencils[e].elements[k]));
-      stress[e] = of_traction * normals[e].dot(p.segment<2>(2 * e))
-                  + of_strain * strain;
+        strain
+            += stencils[e].weights[k] * vector_at(u, stencils[e].elements[k]);
+      stress[e]
+          = of_traction * (normals[e] * vector_at(p, e)) + of_strain * strain;
     }
     return stress;
   }

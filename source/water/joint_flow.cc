@@ -416,7 +416,7 @@ namespace quoin
 
   void JointFlow::find_forces()
   {
-    std::map<unsigned int, NodeVector<2>> sum;
+    std::map<unsigned int, dealii::Tensor<1, 2>> sum;
     const NodeExchange &exchange = node_map.exchange();
     for (unsigned int c = 0; now.acts && c < faces.size(); ++c)
     {
@@ -447,7 +447,7 @@ namespace quoin
              { std::pair(face.lower[k], -1.), std::pair(face.upper[k], 1.) })
           if (exchange.owns(node))
             for (unsigned int d = 0; d < 2; ++d)
-              sum[exchange.local(node)].v[d] += sign * size * normal[d];
+              sum[exchange.local(node)][d] += sign * size * normal[d];
       }
     }
     force_nodes.clear();
@@ -573,20 +573,21 @@ namespace quoin
     water = now;
   }
 
-  void JointFlow::add_loads(const TimePoint &, NodeVector<2> *force) const
+  void JointFlow::add_loads(const TimePoint &,
+                            dealii::Tensor<1, 2> *force) const
   {
     for (unsigned int i = 0; i < forces.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        force[force_nodes[i]].v[d] += forces[i].v[d];
+        force[force_nodes[i]][d] += forces[i][d];
   }
 
   double JointFlow::external_power(const TimePoint &,
-                                   const NodeVector<2> *velocity) const
+                                   const dealii::Tensor<1, 2> *velocity) const
   {
     double power = 0.;
     for (unsigned int i = 0; i < forces.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        power += forces[i].v[d] * velocity[force_nodes[i]].v[d];
+        power += forces[i][d] * velocity[force_nodes[i]][d];
     return power;
   }
 

@@ -225,7 +225,8 @@ namespace quoin
      * current positions and returns the energy that this dissipates [J].
      */
     double add_forces(unsigned int tile, const NodeRecord<2> *nodes,
-                      PlasticHistory &history, NodeVector<2> *force) const;
+                      PlasticHistory &history,
+                      dealii::Tensor<1, 2> *force) const;
 
     /**
      * As add_forces() for one cell, with the derivative consistent with the
@@ -247,8 +248,8 @@ namespace quoin
      * never doing positive work; cells that yield have it unchanged.
      */
     void add_viscous_forces(unsigned int tile, const NodeRecord<2> *nodes,
-                            const NodeVector<2> *velocity, double beta,
-                            NodeVector<2> *force) const;
+                            const dealii::Tensor<1, 2> *velocity, double beta,
+                            dealii::Tensor<1, 2> *force) const;
 
   private:
     /** Strips of equal stiffness that go through the lanes together. */
@@ -281,13 +282,13 @@ namespace quoin
     template <int lanes>
     double add_forces_in_lanes(const Tile &tile, const NodeRecord<2> *nodes,
                                PlasticHistory &history,
-                               NodeVector<2> *force) const;
+                               dealii::Tensor<1, 2> *force) const;
 
     template <int lanes>
-    void add_viscous_forces_in_lanes(const Tile &tile,
-                                     const NodeRecord<2> *nodes,
-                                     const NodeVector<2> *velocity, double beta,
-                                     NodeVector<2> *force) const;
+    void
+    add_viscous_forces_in_lanes(const Tile &tile, const NodeRecord<2> *nodes,
+                                const dealii::Tensor<1, 2> *velocity,
+                                double beta, dealii::Tensor<1, 2> *force) const;
 
     BlockForcesData<2> data;
     unsigned int n_lanes = 0;

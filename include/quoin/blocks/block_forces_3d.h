@@ -132,7 +132,8 @@ namespace quoin
     /** Adds the internal forces of a tile's cells. Updates @p history for the
         current positions and returns the energy that this dissipates [J]. */
     double add_forces(unsigned int tile, const NodeRecord<3> *nodes,
-                      PlasticHistory &history, NodeVector<3> *force) const;
+                      PlasticHistory &history,
+                      dealii::Tensor<1, 3> *force) const;
 
     /**
      * Adds the forces of stiffness-proportional damping, cell by cell: those
@@ -141,8 +142,8 @@ namespace quoin
      * work.
      */
     void add_viscous_forces(unsigned int tile, const NodeRecord<3> *nodes,
-                            const NodeVector<3> *velocity, double beta,
-                            NodeVector<3> *force) const;
+                            const dealii::Tensor<1, 3> *velocity, double beta,
+                            dealii::Tensor<1, 3> *force) const;
 
     /** A cell's forces and, if @p with_stiffness, minus their derivative; entry
         3 i + d is node i, component d. Returns true. For elastic cells. */
@@ -187,7 +188,7 @@ namespace quoin
 
     template <int lanes>
     void add_forces_in_lanes(const Tile &tile, const NodeRecord<3> *nodes,
-                             NodeVector<3> *force) const;
+                             dealii::Tensor<1, 3> *force) const;
 
     BlockForcesData<3> data;
     unsigned int n_lanes = 0;

@@ -116,16 +116,16 @@ namespace quoin
   /** BlockForces::add_forces(); returns the energy dissipated [J]. */
   double add_forces_by_cell(const BlockForces<2> &blocks, unsigned int tile,
                             const NodeRecord<2> *nodes, PlasticHistory &history,
-                            NodeVector<2> *force);
+                            dealii::Tensor<1, 2> *force);
   double add_forces_by_cell(const BlockForces<3> &blocks, unsigned int tile,
                             const NodeRecord<3> *nodes, PlasticHistory &history,
-                            NodeVector<3> *force);
+                            dealii::Tensor<1, 3> *force);
 
   /** BlockForces::add_viscous_forces(). */
   void add_viscous_forces_by_cell(const BlockForces<2> &blocks,
                                   unsigned int tile, const NodeRecord<2> *nodes,
-                                  const NodeVector<2> *velocity, double beta,
-                                  NodeVector<2> *force);
+                                  const dealii::Tensor<1, 2> *velocity,
+                                  double beta, dealii::Tensor<1, 2> *force);
 } // namespace quoin
 
 #endif

@@ -5,7 +5,7 @@
 #define quoin_blocks_node_update_h
 
 #include <quoin/base/local_damping.h>
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 
 #include <cmath>
 #include <cstddef>
@@ -23,8 +23,8 @@ namespace quoin
   template <int dim>
   inline void advance_nodes(const std::size_t begin, const std::size_t end,
                             NodeRecord<dim> *__restrict nodes,
-                            NodeVector<dim> *__restrict velocity,
-                            NodeVector<dim> *__restrict force,
+                            dealii::Tensor<1, dim> *__restrict velocity,
+                            dealii::Tensor<1, dim> *__restrict force,
                             const double *__restrict inverse_mass,
                             const double dt_velocity, const double dt)
   {
@@ -32,9 +32,9 @@ namespace quoin
     using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
     for (std::size_t i = begin; i < end; ++i)
     {
-      Pair &f           = *reinterpret_cast<Pair *>(force[i].v);
-      Pair &v           = *reinterpret_cast<Pair *>(velocity[i].v);
-      Pair &u           = *reinterpret_cast<Pair *>(nodes[i].u);
+      Pair &f           = *reinterpret_cast<Pair *>(&force[i]);
+      Pair &v           = *reinterpret_cast<Pair *>(&velocity[i]);
+      Pair &u           = *reinterpret_cast<Pair *>(&nodes[i].u);
       const double gain = inverse_mass[i] * dt_velocity;
       const Pair w      = v + gain * f;
       v                 = w;
@@ -42,10 +42,10 @@ namespace quoin
       f = Pair{};
       if constexpr (dim == 3)
       {
-        const double wz  = velocity[i].v[2] + gain * force[i].v[2];
-        velocity[i].v[2] = wz;
+        const double wz = velocity[i][2] + gain * force[i][2];
+        velocity[i][2]  = wz;
         nodes[i].u[2] += dt * wz;
-        force[i].v[2] = 0.;
+        force[i][2] = 0.;
       }
     }
   }
@@ -91,12 +91,15 @@ namespace quoin
    * @p adaptive.
    */
   template <bool adaptive, int dim>
-  inline DampingWork advance_nodes_damped(
-      const std::size_t begin, const std::size_t end,
-      NodeRecord<dim> *__restrict nodes, NodeVector<dim> *__restrict velocity,
-      NodeVector<dim> *__restrict force, NodeVector<dim> *__restrict viscous,
-      const double *__restrict mass, const double *__restrict inverse_mass,
-      const DampingFactors &damping, const double dt)
+  inline DampingWork
+  advance_nodes_damped(const std::size_t begin, const std::size_t end,
+                       NodeRecord<dim> *__restrict nodes,
+                       dealii::Tensor<1, dim> *__restrict velocity,
+                       dealii::Tensor<1, dim> *__restrict force,
+                       dealii::Tensor<1, dim> *__restrict viscous,
+                       const double *__restrict mass,
+                       const double *__restrict inverse_mass,
+                       const DampingFactors &damping, const double dt)
   {
     const double a            = 0.5 * damping.dt_velocity * damping.mass;
     const double decay        = (1. - a) / (1. + a);
@@ -111,9 +114,9 @@ namespace quoin
       const double keep = m > 0. ? decay : 1.;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double v0 = velocity[i].v[d];
-        const double f  = force[i].v[d];
-        const double fv = viscous[i].v[d];
+        const double v0 = velocity[i][d];
+        const double f  = force[i][d];
+        const double fv = viscous[i][d];
         const double w  = keep * v0 + gain * (f + fv);
         const double v1 = w
                           - local_damping_velocity(
@@ -128,10 +131,10 @@ namespace quoin
           power[d] += 0.25 * m * (v0 + v1) * (v0 + v1);
           change[d] += 0.5 * m * (v1 - v0) * (v1 + v0);
         }
-        velocity[i].v[d] = v1;
+        velocity[i][d] = v1;
         nodes[i].u[d] += dt * v1;
-        force[i].v[d]   = 0.;
-        viscous[i].v[d] = 0.;
+        force[i][d]   = 0.;
+        viscous[i][d] = 0.;
       }
     }
     for (unsigned int d = 1; d < dim; ++d)

@@ -133,22 +133,25 @@ namespace quoin
      * it clears; damping as in advance_nodes_damped(). Held blocks do not move.
      */
     RigidBlockWork advance(const StepContext &step,
-                           const RigidBlockStage &stage, NodeVector<2> *force,
-                           NodeVector<2> *viscous, State<2> &state) const;
+                           const RigidBlockStage &stage,
+                           dealii::Tensor<1, 2> *force,
+                           dealii::Tensor<1, 2> *viscous,
+                           State<2> &state) const;
 
     /**
      * Sum over the blocks that are not held of F^2 / m + M^2 / I [N^2/kg], with
      * force F and moment M of @p force on their nodes with the arms before the
      * last step of @p dt [s]: the rate at which push() adds power.
      */
-    double mobility(const RigidBlockStage &stage, const NodeVector<2> *force,
-                    double dt, const State<2> &state) const;
+    double mobility(const RigidBlockStage &stage,
+                    const dealii::Tensor<1, 2> *force, double dt,
+                    const State<2> &state) const;
 
     /**
      * Adds @p duration [s] times @p force on the nodes, with these arms, to the
      * momentum in the last step of @p dt [s], and moves the blocks accordingly.
      */
-    void push(const RigidBlockStage &stage, const NodeVector<2> *force,
+    void push(const RigidBlockStage &stage, const dealii::Tensor<1, 2> *force,
               double duration, double dt, State<2> &state) const;
 
     /**
@@ -192,10 +195,11 @@ namespace quoin
     };
     /** Force and moment of @p force on a block's nodes. */
     std::array<double, 3> resultant(const Block &block, const Direction &now,
-                                    const NodeVector<2> *force) const;
+                                    const dealii::Tensor<1, 2> *force) const;
     /** Resultants of the forces on a block's nodes, which it clears. */
     Resultants take_forces(const Block &block, const Direction &now,
-                           NodeVector<2> *force, NodeVector<2> *viscous) const;
+                           dealii::Tensor<1, 2> *force,
+                           dealii::Tensor<1, 2> *viscous) const;
     /** Sets the positions and velocities of a block's nodes. */
     void place_nodes(const Block &block, const RigidBlockState &rigid,
                      const Direction &before, State<2> &state) const;

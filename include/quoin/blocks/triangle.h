@@ -4,7 +4,7 @@
 #ifndef quoin_blocks_triangle_h
 #define quoin_blocks_triangle_h
 
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 #include <quoin/materials/corotated_strain.h>
 #include <quoin/materials/linear_elastic.h>
 
@@ -26,14 +26,13 @@ namespace quoin
   /** Reference geometry of one cell. */
   struct Triangle
   {
-    double det;   /**< twice the reference area, signed [m^2] */
-    double e1[2]; /**< reference edge from node 0 to node 1 [m] */
-    double e2[2]; /**< reference edge from node 0 to node 2 [m] */
+    double det;              /**< twice the reference area, signed [m^2] */
+    dealii::Tensor<1, 2> e1; /**< reference edge from node 0 to node 1 [m] */
+    dealii::Tensor<1, 2> e2; /**< reference edge from node 0 to node 2 [m] */
 
     Triangle(const NodeRecord<2> &n0, const NodeRecord<2> &n1,
              const NodeRecord<2> &n2)
-      : e1{ n1.X[0] - n0.X[0], n1.X[1] - n0.X[1] }, e2{ n2.X[0] - n0.X[0],
-                                                        n2.X[1] - n0.X[1] }
+      : e1(n1.X - n0.X), e2(n2.X - n0.X)
     {
       det = e1[0] * e2[1] - e1[1] * e2[0];
     }
@@ -49,17 +48,18 @@ namespace quoin
     void flow(const double (&q)[4])
     {
       // On edges turned by a right angle, as the gradients are.
-      for (double *e : { e1, e2 })
+      for (dealii::Tensor<1, 2> *e : { &e1, &e2 })
       {
-        const double x = e[0], y = e[1];
-        e[0] = x + q[1] * x - q[2] * y;
-        e[1] = y + q[0] * y - q[2] * x;
+        const double x = (*e)[0], y = (*e)[1];
+        (*e)[0] = x + q[1] * x - q[2] * y;
+        (*e)[1] = y + q[0] * y - q[2] * x;
       }
     }
 
     /** Gradient [[11, 12], [21, 22]] of a field given at the nodes. */
-    std::array<double, 4> gradient(const double (&a)[2], const double (&b)[2],
-                                   const double (&c)[2]) const
+    std::array<double, 4> gradient(const dealii::Tensor<1, 2> &a,
+                                   const dealii::Tensor<1, 2> &b,
+                                   const dealii::Tensor<1, 2> &c) const
     {
       const double bx = b[0] - a[0], by = b[1] - a[1];
       const double cx = c[0] - a[0], cy = c[1] - a[1];
@@ -108,8 +108,9 @@ namespace quoin
    */
   inline void add_nodal_forces(const Triangle &triangle, const double thickness,
                                const std::array<double, 4> &P,
-                               NodeVector<2> &f0, NodeVector<2> &f1,
-                               NodeVector<2> &f2)
+                               dealii::Tensor<1, 2> &f0,
+                               dealii::Tensor<1, 2> &f1,
+                               dealii::Tensor<1, 2> &f2)
   {
     const double w   = std::copysign(0.5 * thickness, triangle.det);
     const auto &e1   = triangle.e1;
@@ -118,12 +119,12 @@ namespace quoin
     const double f1y = -w * (P[2] * e2[1] - P[3] * e2[0]);
     const double f2x = w * (P[0] * e1[1] - P[1] * e1[0]);
     const double f2y = w * (P[2] * e1[1] - P[3] * e1[0]);
-    f0.v[0] -= f1x + f2x;
-    f0.v[1] -= f1y + f2y;
-    f1.v[0] += f1x;
-    f1.v[1] += f1y;
-    f2.v[0] += f2x;
-    f2.v[1] += f2y;
+    f0[0] -= f1x + f2x;
+    f0[1] -= f1y + f2y;
+    f1[0] += f1x;
+    f1[1] += f1y;
+    f2[0] += f2x;
+    f2[1] += f2y;
   }
 
   /**

@@ -186,7 +186,7 @@ namespace quoin
     struct Contact
     {
       /** Vectors x, y at both ends of the overlap. */
-      using Ends = std::array<std::array<double, 2>, 2>;
+      using Ends = std::array<dealii::Tensor<1, 2>, 2>;
 
       unsigned int set;
       Ends lower, upper;                   /**< places on both edges [m] */
@@ -205,8 +205,8 @@ namespace quoin
         contact's area and normals go with the rotation of the edges. */
     struct EndForces
     {
-      std::array<std::array<double, 2>, 4> place; /**< [m] */
-      std::array<std::array<double, 2>, 4> force; /**< [N] */
+      std::array<dealii::Tensor<1, 2>, 4> place; /**< [m] */
+      std::array<dealii::Tensor<1, 2>, 4> force; /**< [N] */
       double share; /**< of the contact that this rank counts */
     };
     /** Forces of @p pair at the positions of update(); returns false if it is
@@ -326,7 +326,7 @@ namespace quoin
     template <int lanes>
     void add_to_ends(const EndForceLanes<lanes> &forces,
                      const std::uint32_t *ea, const std::uint32_t *eb,
-                     unsigned int present, NodeVector<2> *to) const;
+                     unsigned int present, dealii::Tensor<1, 2> *to) const;
     /** What a step loses [J]. */
     struct Losses
     {
@@ -343,7 +343,7 @@ namespace quoin
                           const std::vector<unsigned int> &active,
                           ContactState &contacts, double viscous_beta,
                           bool damps, Losses &losses);
-    void gather_velocities(const NodeVector<2> *velocity);
+    void gather_velocities(const dealii::Tensor<1, 2> *velocity);
     void bind_dashpots(const ContactState &contacts);
     struct DashpotPoint;
     /** Notes a point that presses on its springs. */
@@ -351,7 +351,8 @@ namespace quoin
     /** Adds the forces of the dashpots of noted points. */
     void add_dashpot_forces(const ContactState &contacts);
     /** Adds what is in @p from to nodes of own edges, and empties that. */
-    void scatter(AlignedArray<NodeVector<2>> &from, NodeVector<2> *to) const;
+    void scatter(AlignedArray<dealii::Tensor<1, 2>> &from,
+                 dealii::Tensor<1, 2> *to) const;
     void make_marks(ContactState &contacts) const;
     /** Activates pairs that have come into contact; sets active_pairs. */
     template <int lanes>
@@ -408,7 +409,7 @@ namespace quoin
     std::vector<unsigned int> compact_own; /**< local node of each */
     std::vector<unsigned int> far_nodes;   /**< of foreign edges, global */
     std::vector<NodeRecord<2>> ghost_nodes;
-    std::vector<NodeVector<2>> ghost_velocity;
+    std::vector<dealii::Tensor<1, 2>> ghost_velocity;
     /** Local edges of pairs, then of copies, then zeros for all lanes. */
     std::vector<std::array<std::uint32_t, 2>> pair_edges;
     AlignedArray<PairWeight> pair_weights;
@@ -419,8 +420,8 @@ namespace quoin
     /** Pairs and copies of each local edge, ascending in their edges. */
     std::vector<unsigned int> edge_pairs_begin, edge_pairs;
 
-    AlignedArray<NodeVector<2>> position, compact_force, compact_velocity,
-        compact_viscous;
+    AlignedArray<dealii::Tensor<1, 2>> position, compact_force,
+        compact_velocity, compact_viscous;
     AlignedArray<Edge> local_edges;
     AlignedArray<EdgeLinks> edge_links;
     // Pairs of the present step.

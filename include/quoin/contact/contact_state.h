@@ -87,7 +87,7 @@ namespace quoin
     AlignedArray<std::uint8_t> handed_over;
 
     /** Positions of the boundary nodes when pairs were last searched [m]. */
-    AlignedArray<NodeVector<2>> search_positions;
+    AlignedArray<dealii::Tensor<1, 2>> search_positions;
     std::uint64_t next_check = 0; /**< step of the next check of motions */
     std::uint64_t n_searches = 0;
     double skin              = 0.; /**< skin of the last search [m] */

@@ -35,29 +35,30 @@ namespace quoin
    * those of @p after [m/s]; @p mass of nodes [kg].
    */
   template <int dim>
-  double
-  kinetic_energy(const NodeMap<dim> &nodes, const std::vector<double> &mass,
-                 const AlignedArray<NodeVector<dim>> &before,
-                 const AlignedArray<NodeVector<dim>> &after, double share);
+  double kinetic_energy(const NodeMap<dim> &nodes,
+                        const std::vector<double> &mass,
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after,
+                        double share);
 
   /** Kinetic energy of the added @p masses alone [J]; arguments as above. */
   template <int dim>
   double kinetic_energy(const std::vector<NodeMass<dim>> &masses,
-                        const AlignedArray<NodeVector<dim>> &before,
-                        const AlignedArray<NodeVector<dim>> &after,
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after,
                         double share);
 
   /** Sum over these nodes of mass times squared change of velocity [J]. */
   template <int dim>
   double squared_change(const NodeMap<dim> &nodes,
                         const std::vector<double> &mass,
-                        const AlignedArray<NodeVector<dim>> &before,
-                        const AlignedArray<NodeVector<dim>> &after);
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after);
   /** Sum of the added @p masses times squared change of velocity [J]. */
   template <int dim>
   double squared_change(const std::vector<NodeMass<dim>> &masses,
-                        const AlignedArray<NodeVector<dim>> &before,
-                        const AlignedArray<NodeVector<dim>> &after);
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after);
 
   /**
    * Steps of the nodes of deformable blocks by central differences with
@@ -134,7 +135,7 @@ namespace quoin
     double unbalanced_ratio(const State<dim> &state, const StepContext &context,
                             StepSums sums) const;
     /** Force on @p node by the inertia of @p mass in the last step [N]. */
-    NodeVector<dim> inertia_force(const NodeMass<dim> &mass) const;
+    dealii::Tensor<1, dim> inertia_force(const NodeMass<dim> &mass) const;
     /** Adds the recoverable energy of operators, of this rank. */
     void add_stored_energy(const State<dim> &state,
                            EnergyAccounts &energies) const;
@@ -155,8 +156,8 @@ namespace quoin
                       const StepContext &context, bool balance, StepSums &sums);
     /** Waits until other ranks' forces are added to those of shared nodes that
         this rank owns, and clears those of nodes that it does not own. */
-    void finish_sum(OwnerSum<NodeVector<dim>> &sum,
-                    AlignedArray<NodeVector<dim>> &values);
+    void finish_sum(OwnerSum<dealii::Tensor<1, dim>> &sum,
+                    AlignedArray<dealii::Tensor<1, dim>> &values);
     void capture(CapturedNode<dim> &node, const State<dim> &state) const;
     /** Moves the free components of nodes with added masses, after all that is
         prescribed. */
@@ -196,15 +197,15 @@ namespace quoin
       std::array<std::array<double, dim>, dim> mass; /**< added mass [kg] */
       /** Inverse of all mass of the free components, 0 elsewhere [1/kg]. */
       std::array<std::array<double, dim>, dim> inverse;
-      NodeVector<dim> acceleration; /**< in the last step [m/s^2] */
+      dealii::Tensor<1, dim> acceleration; /**< in the last step [m/s^2] */
     };
     std::vector<HeavyNode> heavy; /**< ascending nodes */
     /** First entry of each tile, of shared nodes, and of rigid blocks. */
     std::vector<unsigned int> captured_begin;
 
     /** Forces on the local nodes [N]; zero after a step. */
-    AlignedArray<NodeVector<dim>> force, viscous_force;
-    OwnerSum<NodeVector<dim>> force_sum, viscous_sum;
+    AlignedArray<dealii::Tensor<1, dim>> force, viscous_force;
+    OwnerSum<dealii::Tensor<1, dim>> force_sum, viscous_sum;
   };
 } // namespace quoin
 

@@ -236,7 +236,7 @@ namespace quoin
 
     /** Velocities and, of this rank, stored energies before the step, when they
         are needed. */
-    AlignedArray<NodeVector<dim>> velocity_before;
+    AlignedArray<dealii::Tensor<1, dim>> velocity_before;
     std::vector<RigidBlockState> rigid_before;
     EnergyAccounts stored_before;
     PlasticHistory plastic_now; /**< when energies are requested */

@@ -100,7 +100,7 @@ namespace quoin
                 const State<dim> &state);
 
     /** Forces of the factor 1 on local nodes, zero on ghosts [N]. */
-    const AlignedArray<NodeVector<dim>> &forces() const
+    const AlignedArray<dealii::Tensor<1, dim>> &forces() const
     {
       return nodal;
     }
@@ -141,8 +141,9 @@ namespace quoin
     }
     void add_forces(const StepContext &step, State<dim> &state,
                     const NodeForces<dim> &forces) override;
-    double external_power(const TimePoint &time,
-                          const NodeVector<dim> *velocity) const override;
+    double
+    external_power(const TimePoint &time,
+                   const dealii::Tensor<1, dim> *velocity) const override;
     /** Completes a step: the change of lambda and of the motion. Collective. */
     void correct(const StepContext &step, State<dim> &state);
 
@@ -165,7 +166,7 @@ namespace quoin
     const Model<dim> &model;
     const std::string stage_name;
     const TimeFunction control;
-    AlignedArray<NodeVector<dim>> nodal;
+    AlignedArray<dealii::Tensor<1, dim>> nodal;
     std::vector<LoadedNode> loaded; /**< owned */
     std::vector<DisplacementTerm> mean, named;
     const bool is_named;

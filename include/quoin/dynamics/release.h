@@ -42,9 +42,10 @@ namespace quoin
       return "loads";
     }
     void add_loads(const TimePoint &time,
-                   NodeVector<dim> *force) const override;
-    double external_power(const TimePoint &time,
-                          const NodeVector<dim> *velocity) const override;
+                   dealii::Tensor<1, dim> *force) const override;
+    double
+    external_power(const TimePoint &time,
+                   const dealii::Tensor<1, dim> *velocity) const override;
 
   private:
     struct NodalForce

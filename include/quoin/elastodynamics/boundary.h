@@ -6,6 +6,8 @@
 
 #include <quoin/base/eigen_core.h>
 
+#include <deal.II/base/point.h>
+
 #include <cstddef>
 #include <vector>
 
@@ -14,8 +16,8 @@ namespace quoin
   /** A straight boundary element; the domain is on the left from a to b. */
   struct BoundaryElement
   {
-    Eigen::Vector2d a; /**< start [m] */
-    Eigen::Vector2d b; /**< end [m] */
+    dealii::Point<2> a; /**< start [m] */
+    dealii::Point<2> b; /**< end [m] */
 
     /** [m] */
     double length() const
@@ -24,19 +26,19 @@ namespace quoin
     }
 
     /** Unit vector from a to b. */
-    Eigen::Vector2d tangent() const
+    dealii::Tensor<1, 2> tangent() const
     {
-      return (b - a).normalized();
+      return (b - a) / length();
     }
 
     /** Unit normal, outward from the domain: (t_y, -t_x). */
-    Eigen::Vector2d normal() const
+    dealii::Tensor<1, 2> normal() const
     {
-      const Eigen::Vector2d t = tangent();
-      return { t.y(), -t.x() };
+      const dealii::Tensor<1, 2> t = tangent();
+      return dealii::Point<2>(t[1], -t[0]);
     }
 
-    Eigen::Vector2d middle() const
+    dealii::Point<2> middle() const
     {
       return 0.5 * (a + b);
     }
@@ -76,14 +78,14 @@ namespace quoin
      * Adds the curve through @p points, element k from point k to point k+1,
      * the domain on its left; @p closed adds one from the last to the first.
      */
-    void add_curve(const std::vector<Eigen::Vector2d> &points, bool closed);
+    void add_curve(const std::vector<dealii::Point<2>> &points, bool closed);
 
     /**
      * The polygon through @p vertices, given anticlockwise, its edges cut into
      * equal elements not longer than @p element_length [m]. The domain is
      * inside, or outside if @p exterior; the elements then run clockwise.
      */
-    static Boundary polygon(const std::vector<Eigen::Vector2d> &vertices,
+    static Boundary polygon(const std::vector<dealii::Point<2>> &vertices,
                             double element_length, bool exterior);
 
     /**
@@ -92,7 +94,7 @@ namespace quoin
      * angle zero. The domain is inside, or outside if @p exterior: the
      * elements then run clockwise.
      */
-    static Boundary circle(const Eigen::Vector2d &centre, double radius,
+    static Boundary circle(const dealii::Point<2> &centre, double radius,
                            unsigned n, bool exterior);
   };
 } // namespace quoin

@@ -23,16 +23,16 @@ namespace quoin
     virtual ~IncidentField() = default;
 
     /** Displacement [m] at the place @p x [m] and time @p t [s]. */
-    virtual Eigen::Vector2d displacement(const Eigen::Vector2d &x,
-                                         double t) const = 0;
+    virtual dealii::Tensor<1, 2> displacement(const dealii::Point<2> &x,
+                                              double t) const = 0;
 
     /**
      * The mean over [@p t0, @p t1] of the traction sigma n [Pa] on a plane with
      * the unit normal @p n; tension is positive.
      */
-    virtual Eigen::Vector2d mean_traction(const Eigen::Vector2d &x,
-                                          const Eigen::Vector2d &n, double t0,
-                                          double t1) const = 0;
+    virtual dealii::Tensor<1, 2> mean_traction(const dealii::Point<2> &x,
+                                               const dealii::Tensor<1, 2> &n,
+                                               double t0, double t1) const = 0;
 
     /**
      * Whether signals contain the Hilbert transform of the given one: then

@@ -56,11 +56,11 @@ namespace quoin
     Radial radial(double r) const;
 
     /** U_ij [m^2/N] at @p d = y - x [m]. */
-    Eigen::Matrix2cd displacement(const Eigen::Vector2d &d) const;
+    Eigen::Matrix2cd displacement(const dealii::Point<2> &d) const;
 
     /** P_ij [1/m] at @p d = y - x [m] on a plane with the normal @p n. */
-    Eigen::Matrix2cd traction(const Eigen::Vector2d &d,
-                              const Eigen::Vector2d &n) const;
+    Eigen::Matrix2cd traction(const dealii::Point<2> &d,
+                              const dealii::Tensor<1, 2> &n) const;
 
     /** s / c_1, with damping [1/m]. */
     std::complex<double> k1() const

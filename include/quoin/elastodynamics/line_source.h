@@ -41,17 +41,17 @@ namespace quoin
      *   end. A moment that is not zero at the beginning is reached in the step
      *   before it.
      */
-    LineSource(const ElasticMedium &medium, const Eigen::Vector2d &position,
+    LineSource(const ElasticMedium &medium, const dealii::Point<2> &position,
                const std::function<double(double)> &moment,
                const SignalRange &range);
 
-    Eigen::Vector2d displacement(const Eigen::Vector2d &x,
-                                 double t) const override;
+    dealii::Tensor<1, 2> displacement(const dealii::Point<2> &x,
+                                      double t) const override;
 
     /** Exact for the moment that is linear between its samples. */
-    Eigen::Vector2d mean_traction(const Eigen::Vector2d &x,
-                                  const Eigen::Vector2d &n, double t0,
-                                  double t1) const override;
+    dealii::Tensor<1, 2> mean_traction(const dealii::Point<2> &x,
+                                       const dealii::Tensor<1, 2> &n, double t0,
+                                       double t1) const override;
 
   private:
     /** Change of the slope of the moment. */
@@ -62,7 +62,7 @@ namespace quoin
     };
 
     ElasticMedium medium;
-    Eigen::Vector2d position;
+    dealii::Point<2> position;
     std::vector<Knot> knots; /**< knots in ascending order of time */
   };
 } // namespace quoin

@@ -37,16 +37,16 @@ namespace quoin
       }
     };
 
-    Eigen::Vector2d displacement(const Eigen::Vector2d &x,
-                                 double t) const override;
+    dealii::Tensor<1, 2> displacement(const dealii::Point<2> &x,
+                                      double t) const override;
 
     /**
      * Tractions are linear in the derivative of the signal: their mean is
      * exact and needs the signal only at both ends.
      */
-    Eigen::Vector2d mean_traction(const Eigen::Vector2d &x,
-                                  const Eigen::Vector2d &n, double t0,
-                                  double t1) const override;
+    dealii::Tensor<1, 2> mean_traction(const dealii::Point<2> &x,
+                                       const dealii::Tensor<1, 2> &n, double t0,
+                                       double t1) const override;
 
     bool has_precursors() const override;
 

@@ -20,7 +20,7 @@ namespace quoin
    * place at rest.
    */
   Eigen::Matrix2d static_displacement_kernel(const ElasticMedium &medium,
-                                             const Eigen::Vector2d &d,
+                                             const dealii::Point<2> &d,
                                              double reference_length = 1.);
 
   /** The integral equation H u = G p of statics, as LaplaceMatrices. */
@@ -60,7 +60,7 @@ namespace quoin
    */
   StaticMatrices static_point_matrices(const Boundary &boundary,
                                        const ElasticMedium &medium,
-                                       const Eigen::Vector2d &x,
+                                       const dealii::Point<2> &x,
                                        double reference_length = 1.);
 } // namespace quoin
 

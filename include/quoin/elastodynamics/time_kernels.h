@@ -55,8 +55,8 @@ namespace quoin
    * @p normal at @p time [s]. Exactly zero before the P wave arrives.
    */
   TimeKernels time_kernels(const ElasticMedium &medium, double time,
-                           const Eigen::Vector2d &distance,
-                           const Eigen::Vector2d &normal);
+                           const dealii::Tensor<1, 2> &distance,
+                           const dealii::Tensor<1, 2> &normal);
 
   /**
    * Tractions [Pa] at @p distance on a plane with unit @p normal under a
@@ -64,8 +64,8 @@ namespace quoin
    * of B / T for long times.
    */
   Eigen::Matrix2d static_traction_kernel(const ElasticMedium &medium,
-                                         const Eigen::Vector2d &distance,
-                                         const Eigen::Vector2d &normal);
+                                         const dealii::Tensor<1, 2> &distance,
+                                         const dealii::Tensor<1, 2> &normal);
 } // namespace quoin
 
 #endif

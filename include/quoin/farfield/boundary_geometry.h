@@ -20,7 +20,7 @@ namespace quoin
     std::vector<unsigned int> owner;
 
     /** Middles of the elements of boundary @p k [m]. */
-    std::vector<Eigen::Vector2d> middles(unsigned int k) const;
+    std::vector<dealii::Point<2>> middles(unsigned int k) const;
   };
 
   /**
@@ -50,11 +50,11 @@ namespace quoin
 
   /** The element that is nearest to @p point, and on which side that is. */
   NearestElement nearest_element(const Boundary &boundary,
-                                 const Eigen::Vector2d &point);
+                                 const dealii::Point<2> &point);
 
   /** Whether two segments have a point in common. */
-  bool segments_meet(const Eigen::Vector2d &a, const Eigen::Vector2d &b,
-                     const Eigen::Vector2d &c, const Eigen::Vector2d &d);
+  bool segments_meet(const dealii::Point<2> &a, const dealii::Point<2> &b,
+                     const dealii::Point<2> &c, const dealii::Point<2> &d);
 } // namespace quoin
 
 #endif

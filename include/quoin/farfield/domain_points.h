@@ -16,7 +16,7 @@ namespace quoin
   /** Points of a grid in the domain of boundary elements. */
   struct DomainPoints
   {
-    std::vector<Eigen::Vector2d> points; /**< [m] */
+    std::vector<dealii::Point<2>> points; /**< [m] */
     /** Triangles between the points. */
     std::vector<std::array<std::int32_t, 3>> triangles;
   };

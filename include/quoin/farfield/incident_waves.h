@@ -28,7 +28,7 @@ namespace quoin
      */
     IncidentWaves(const BoundaryElementParameters &settings,
                   const ElasticMedium &medium, const Boundary &boundary,
-                  const std::vector<Eigen::Vector2d> &points, double duration,
+                  const std::vector<dealii::Point<2>> &points, double duration,
                   double time_step);
 
     bool empty() const
@@ -37,7 +37,8 @@ namespace quoin
     }
 
     /** Sums of IncidentField over all waves; entry 2 e + i on the boundary. */
-    Eigen::Vector2d displacement(const Eigen::Vector2d &x, double time) const;
+    dealii::Tensor<1, 2> displacement(const dealii::Point<2> &x,
+                                      double time) const;
     Eigen::VectorXd displacements(double time) const;
     /**
      * Tractions that belong to the step from @p begin to @p end: in its mean,
@@ -53,7 +54,7 @@ namespace quoin
 
   private:
     void check_place(const IncidentWaveParameters &wave,
-                     const std::vector<Eigen::Vector2d> &points) const;
+                     const std::vector<dealii::Point<2>> &points) const;
     void check_start(const IncidentWaveParameters &wave,
                      const IncidentField &field,
                      const std::function<double(double)> &signal,

@@ -5,6 +5,7 @@
 #define quoin_farfield_interface_transfer_h
 
 #include <quoin/base/eigen_core.h>
+#include <quoin/base/packed_vectors.h>
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/elastodynamics/boundary.h>
 
@@ -46,8 +47,8 @@ namespace quoin
     }
 
     /**
-     * Means over the elements of @p value(k), an array of two for the k-th of
-     * nodes(): entry 2 e + d; summed over the ranks.
+     * Means over the elements of the vector @p value(k) of the k-th of nodes():
+     * entry 2 e + d; summed over the ranks.
      */
     template <typename Value>
     void gather(const Value &value, Eigen::VectorXd &means) const
@@ -55,23 +56,21 @@ namespace quoin
       means.setZero(2 * n_elements());
       for (unsigned int k = 0; k < node_list.size(); ++k)
       {
-        const std::array<double, 2> v = value(k);
+        const dealii::Tensor<1, 2> v = value(k);
         for (unsigned int j = row_begin[k]; j < row_begin[k + 1]; ++j)
-          for (unsigned int d = 0; d < 2; ++d)
-            means[2 * entries[j].element + d] += entries[j].weight * v[d];
+          add_to_vector(means, entries[j].element, entries[j].weight * v);
       }
       sum(means);
     }
 
     /** Force by thickness on the k-th of nodes(): sum_e L_e w_ek p_e [N/m]. */
-    std::array<double, 2> force(const unsigned int k,
-                                const Eigen::VectorXd &traction) const
+    dealii::Tensor<1, 2> force(const unsigned int k,
+                               const Eigen::VectorXd &traction) const
     {
-      std::array<double, 2> result{};
+      dealii::Tensor<1, 2> result;
       for (unsigned int j = row_begin[k]; j < row_begin[k + 1]; ++j)
-        for (unsigned int d = 0; d < 2; ++d)
-          result[d] += entries[j].weight * length[entries[j].element]
-                       * traction[2 * entries[j].element + d];
+        result += entries[j].weight * length[entries[j].element]
+                  * vector_at(traction, entries[j].element);
       return result;
     }
 

@@ -75,7 +75,7 @@ namespace quoin
      * Begins, if it has not: from now on @p force, what is out of balance on
      * local nodes without the far field, is held on the interface. Collective.
      */
-    void hold(const NodeVector<2> *force, State<2> &state) const;
+    void hold(const dealii::Tensor<1, 2> *force, State<2> &state) const;
 
     /**
      * Adds its forces on the interface's nodes to @p force and returns its
@@ -83,7 +83,7 @@ namespace quoin
      */
     double add_forces(const NodeRecord<2> *nodes,
                       const StaticFarFieldState &state,
-                      NodeVector<2> *force) const;
+                      dealii::Tensor<1, 2> *force) const;
 
     /** Minus the derivative of these forces. */
     struct NodalStiffness

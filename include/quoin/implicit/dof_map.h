@@ -139,7 +139,7 @@ namespace quoin
 
     /** Adds @p force on owned nodes to their degrees of freedom, by
         constraints(); the caller calls compress(). */
-    void add_forces(const AlignedArray<NodeVector<2>> &force,
+    void add_forces(const AlignedArray<dealii::Tensor<1, 2>> &force,
                     Vector &right_hand_side) const;
 
   private:

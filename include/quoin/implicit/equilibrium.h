@@ -22,11 +22,13 @@ namespace quoin
   /** Forces at a configuration, and the state updated for it. */
   struct Balance
   {
-    AlignedArray<NodeVector<2>> force;    /**< unbalanced, owned nodes [N] */
-    AlignedArray<NodeVector<2>> external; /**< of loads, part of it [N] */
+    AlignedArray<dealii::Tensor<1, 2>>
+        force; /**< unbalanced, owned nodes [N] */
+    AlignedArray<dealii::Tensor<1, 2>>
+        external; /**< of loads, part of it [N] */
     /** Drives of bodies and held forces, besides those on nodes [N, N m]. */
     std::vector<std::array<double, 3>> drives, held;
-    AlignedArray<NodeVector<2>>
+    AlignedArray<dealii::Tensor<1, 2>>
         drag;               /**< against the motion, not in force [N] */
     double unbalanced = 0.; /**< with drag, sum over all components [N] */
     double dragged    = 0.; /**< the sum of the drag [N] */
@@ -159,13 +161,13 @@ namespace quoin
     /** Adds forces of loads, with @p factor of the pattern, on nodes that are
         present. */
     void add_external(double load_time, double factor,
-                      AlignedArray<NodeVector<2>> &force) const;
+                      AlignedArray<dealii::Tensor<1, 2>> &force) const;
     /** Adds the column and the row of the factor to the matrix and, to the
         advance of a step to @p load_time [s], the displacement that it wants
         beside prescribed motions. */
     void add_pattern(const Configuration &configuration, double load_time,
                      DofMap::Vector &by_advance);
-    void find_ratio(const AlignedArray<NodeVector<2>> &applied,
+    void find_ratio(const AlignedArray<dealii::Tensor<1, 2>> &applied,
                     Balance &balance);
     /** Finds the values of the matrix that an element adds to. */
     void find_places(const ElementLinearisation<2> &element);
@@ -180,7 +182,7 @@ namespace quoin
     /** Adds the forces of an element to @p force and its derivatives to those
         of @p slopes, unless that is null. */
     void add_element(const ElementLinearisation<2> &element,
-                     AlignedArray<NodeVector<2>> &force, double &path,
+                     AlignedArray<dealii::Tensor<1, 2>> &force, double &path,
                      bool on_path, Slopes *slopes);
     /** Numbers the interface points of beams and adds their entries. */
     void add_beam_entries(dealii::TrilinosWrappers::SparsityPattern &entries);
@@ -193,7 +195,7 @@ namespace quoin
                        const Configuration &configuration, Balance &balance,
                        const Slopes *slopes);
     void fill_unused_rows();
-    void add_turning(const AlignedArray<NodeVector<2>> &force);
+    void add_turning(const AlignedArray<dealii::Tensor<1, 2>> &force);
 
     const Model<2> &model;
     DofMap &dof_map;
@@ -237,7 +239,8 @@ namespace quoin
     dealii::FullMatrix<double> element_matrix;
     dealii::Vector<double> no_load; /**< of an element */
     std::vector<DofMap::Index> element_dofs;
-    AlignedArray<NodeVector<2>> applied_force; /**< see Balance::applied */
+    AlignedArray<dealii::Tensor<1, 2>>
+        applied_force; /**< see Balance::applied */
   };
 } // namespace quoin
 

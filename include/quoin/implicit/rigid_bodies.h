@@ -61,7 +61,7 @@ namespace quoin
   /** Force and moment of @p force on the nodes of each body, about its centre
       with its present arms; collective. */
   BodyValues body_forces(const RigidBodies &bodies,
-                         const AlignedArray<NodeVector<2>> &force,
+                         const AlignedArray<dealii::Tensor<1, 2>> &force,
                          MPI_Comm communicator);
 
   /** Loads on bodies [N, N m]; zero for prescribed components. */

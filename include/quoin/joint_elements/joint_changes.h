@@ -36,9 +36,9 @@ namespace quoin
 
   /** Adds the forces [N] of face @p i by its tractions in @p state. */
   void add_traction_forces(const MatchedJoints &joints, unsigned int i,
-                           const State<2> &state, NodeVector<2> *force);
+                           const State<2> &state, dealii::Tensor<1, 2> *force);
   void add_traction_forces(const SpaceJoints &joints, unsigned int i,
-                           const State<3> &state, NodeVector<3> *force);
+                           const State<3> &state, dealii::Tensor<1, 3> *force);
 
   /** Face @p i is no joint from now on: a side of it is not there. */
   void detach_joint(unsigned int i, JointHistory &history);

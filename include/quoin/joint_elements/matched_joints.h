@@ -161,7 +161,7 @@ namespace quoin
      * joint forces to @p force and the dissipation to @p energy.
      */
     void add_forces(const NodeRecord<2> *nodes, JointHistory &history,
-                    EnergyAccounts &energy, NodeVector<2> *force) const;
+                    EnergyAccounts &energy, dealii::Tensor<1, 2> *force) const;
 
     /**
      * Adds the stiffness-proportional damping forces of points that neither
@@ -169,16 +169,16 @@ namespace quoin
      */
     void add_viscous_forces(const NodeRecord<2> *nodes,
                             const JointHistory &history,
-                            const NodeVector<2> *velocity, double beta,
-                            NodeVector<2> *force) const;
+                            const dealii::Tensor<1, 2> *velocity, double beta,
+                            dealii::Tensor<1, 2> *force) const;
 
     /**
      * Adds the forces [N] of intact joints that are as stiff as they can become
      * to @p force, for nodes displaced by @p displacement [m] from @p nodes.
      */
     void add_elastic_forces(const NodeRecord<2> *nodes,
-                            const NodeVector<2> *displacement,
-                            NodeVector<2> *force) const;
+                            const dealii::Tensor<1, 2> *displacement,
+                            dealii::Tensor<1, 2> *force) const;
 
     /**
      * What add_forces() does, of all segments or of segment @p i, with its
@@ -212,19 +212,20 @@ namespace quoin
     template <typename Law>
     void add_set_forces(unsigned int set, const Law &law,
                         const NodeRecord<2> *nodes, JointHistory &history,
-                        EnergyAccounts &energy, NodeVector<2> *force) const;
+                        EnergyAccounts &energy,
+                        dealii::Tensor<1, 2> *force) const;
     /** add_viscous_forces() of a set. */
     template <typename Law>
     void add_set_viscous_forces(unsigned int set, const Law &law,
                                 const NodeRecord<2> *nodes,
                                 const JointHistory &history,
-                                const NodeVector<2> *velocity, double beta,
-                                NodeVector<2> *force) const;
+                                const dealii::Tensor<1, 2> *velocity,
+                                double beta, dealii::Tensor<1, 2> *force) const;
 
     void add_dashpot_forces(const NodeRecord<2> *nodes,
                             const JointHistory &history,
-                            const NodeVector<2> *velocity,
-                            NodeVector<2> *force);
+                            const dealii::Tensor<1, 2> *velocity,
+                            dealii::Tensor<1, 2> *force);
 
     /** Opening and slip of a point [m] and their rates [m/s]. */
     struct Motion
@@ -237,8 +238,9 @@ namespace quoin
      */
     template <typename Acts, typename Traction>
     void add_rate_forces(unsigned int i, const NodeRecord<2> *nodes,
-                         const NodeVector<2> *velocity, const Acts &acts,
-                         const Traction &traction, NodeVector<2> *force) const;
+                         const dealii::Tensor<1, 2> *velocity, const Acts &acts,
+                         const Traction &traction,
+                         dealii::Tensor<1, 2> *force) const;
 
     const NodeMap<2> *node_map = nullptr;
     Thickness thickness;                    /**< thickness of cell groups */

@@ -18,8 +18,8 @@ namespace quoin
   template <int lanes>
   struct SegmentGroup
   {
-    /** Offsets in arrays of NodeVector<2> [B] of lower[0], lower[1], upper[0],
-        upper[1]; in those of NodeRecord<2> they are twice as large. */
+    /** Offsets in arrays of dealii::Tensor<1, 2> [B] of lower[0], lower[1],
+       upper[0], upper[1]; in those of NodeRecord<2> they are twice as large. */
     std::uint32_t nodes[4][lanes];
     /** Area of each point, in the order of the history [m^2]. */
     double area[2 * lanes];

@@ -119,22 +119,22 @@ namespace quoin
      * joint forces to @p force and the dissipation to @p energy.
      */
     void add_forces(const NodeRecord<3> *nodes, SpaceJointHistory &history,
-                    EnergyAccounts &energy, NodeVector<3> *force) const;
+                    EnergyAccounts &energy, dealii::Tensor<1, 3> *force) const;
 
     /** Adds the stiffness-proportional damping forces of points that neither
         slip nor are open: beta kn, beta ks times the rates [Pa]. */
     void add_viscous_forces(const NodeRecord<3> *nodes,
                             const SpaceJointHistory &history,
-                            const NodeVector<3> *velocity, double beta,
-                            NodeVector<3> *force) const;
+                            const dealii::Tensor<1, 3> *velocity, double beta,
+                            dealii::Tensor<1, 3> *force) const;
 
     /**
      * Adds the forces [N] of intact joints that are as stiff as they can become
      * to @p force, for nodes displaced by @p displacement [m] from @p nodes.
      */
     void add_elastic_forces(const NodeRecord<3> *nodes,
-                            const NodeVector<3> *displacement,
-                            NodeVector<3> *force) const;
+                            const dealii::Tensor<1, 3> *displacement,
+                            dealii::Tensor<1, 3> *force) const;
 
     /** Adds the forces [N] on the upper side by the tractions of face @p i. */
     dealii::Tensor<1, 3> force_on_upper(unsigned int i,
@@ -151,7 +151,8 @@ namespace quoin
     template <typename Law>
     void add_set_forces(unsigned int set, const Law &law,
                         const NodeRecord<3> *nodes, SpaceJointHistory &history,
-                        EnergyAccounts &energy, NodeVector<3> *force) const;
+                        EnergyAccounts &energy,
+                        dealii::Tensor<1, 3> *force) const;
 
     std::vector<SpaceJointFace> all_faces; /**< sorted by set */
     std::vector<JointLaw> all_laws;

@@ -5,7 +5,7 @@
 #define quoin_joints_joint_history_h
 
 #include <quoin/base/archive_members.h>
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 
 #include <array>
 #include <cstddef>

@@ -149,7 +149,7 @@ namespace quoin
       bool is_prescribed = false;
       std::array<LoadComponent, 3> components;
       /** Impedance for x, y per thickness [Pa s]. */
-      std::array<double, 2> impedance{};
+      dealii::Tensor<1, 2> impedance;
     } base;
 
     /** Column node of each of nodes(). */
@@ -159,12 +159,12 @@ namespace quoin
     /** Dashpots of the edges of the base. */
     std::vector<Dashpot<2>> base_dashpots;
 
-    std::vector<std::array<double, 2>> traction; /**< xx, xy of layers [Pa] */
+    std::vector<dealii::Tensor<1, 2>> traction; /**< xx, xy of layers [Pa] */
     std::vector<double> force; /**< force on the column per thickness [N/m] */
     /** Mean velocity of the column at t [m/s]. */
     std::vector<double> mean_velocity;
     /** Force on each of nodes(), as a pull [N]. */
-    std::vector<std::array<double, 2>> pull;
+    std::vector<dealii::Tensor<1, 2>> pull;
     /** Damping coefficients of each of nodes(). */
     std::vector<std::array<double, 3>> damping;
   };

@@ -4,6 +4,7 @@
 #ifndef quoin_loads_motion_constraint_h
 #define quoin_loads_motion_constraint_h
 
+#include <quoin/base/plane_geometry.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/operators/state.h>
 #include <quoin/operators/step_context.h>
@@ -24,18 +25,18 @@ namespace quoin
   template <int dim>
   struct CapturedNode
   {
-    unsigned int node;            /**< local */
-    double mass;                  /**< [kg] */
-    NodeVector<dim> force;        /**< [N] */
-    NodeVector<dim> velocity;     /**< [m/s] */
-    NodeVector<dim> displacement; /**< [m] */
-    NodeVector<dim>
+    unsigned int node;                   /**< local */
+    double mass;                         /**< [kg] */
+    dealii::Tensor<1, dim> force;        /**< [N] */
+    dealii::Tensor<1, dim> velocity;     /**< [m/s] */
+    dealii::Tensor<1, dim> displacement; /**< [m] */
+    dealii::Tensor<1, dim>
         viscous; /**< stiffness-proportional part of the force [N] */
     /**
      * Part of the force at the first step of a stage: that of tractions and
      * gravity that did not act in the previous stage, if there was one [N].
      */
-    NodeVector<dim> begun;
+    dealii::Tensor<1, dim> begun;
     /** The last constraint to act on each component; null: none. */
     const MotionConstraint<dim> *owner[dim];
     /** Whether it has a NodeMass beside its mass. Its part of the inertia then
@@ -45,11 +46,11 @@ namespace quoin
 
   /** Moment about the origin [N m] of @p force [N] on a node, as it was at t.
    */
-  inline double moment_of(const double *force, const CapturedNode<2> &before,
+  inline double moment_of(const dealii::Tensor<1, 2> &force,
+                          const CapturedNode<2> &before,
                           const NodeRecord<2> &node)
   {
-    return (node.X[0] + before.displacement.v[0]) * force[1]
-           - (node.X[1] + before.displacement.v[1]) * force[0];
+    return cross(node.X + before.displacement, force);
   }
 
   /**

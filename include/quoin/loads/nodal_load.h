@@ -89,9 +89,10 @@ namespace quoin
       return "loads";
     }
     void add_loads(const TimePoint &time,
-                   NodeVector<dim> *force) const override;
-    double external_power(const TimePoint &time,
-                          const NodeVector<dim> *velocity) const override;
+                   dealii::Tensor<1, dim> *force) const override;
+    double
+    external_power(const TimePoint &time,
+                   const dealii::Tensor<1, dim> *velocity) const override;
 
     /** Traction x, y, z [Pa] or acceleration [m/s^2], pressure [Pa] and place
         of moving shapes [m]; where they differ from place to place, numbers
@@ -136,7 +137,7 @@ namespace quoin
     bool acts_in_joints = false;
     double given_ramp; /**< -1: automatic [s] */
     double ramp_duration = 0.;
-    std::vector<NodeVector<dim>>
+    std::vector<dealii::Tensor<1, dim>>
         inward; /**< n_i [m^2]; empty without pressure */
   };
 

@@ -43,7 +43,8 @@ namespace quoin
       return node_list;
     }
     /** The force on each of nodes() [N]; computed when it changes. */
-    const std::vector<NodeVector<dim>> &forces(const TimePoint &time) const;
+    const std::vector<dealii::Tensor<1, dim>> &
+    forces(const TimePoint &time) const;
 
     /** Length of the crack that the water of an UpliftDiagram is in [m]. */
     double crack() const
@@ -96,7 +97,7 @@ namespace quoin
     std::vector<Face> faces;
     // What forces() found last, and the data that it was found for.
     mutable std::vector<double> last_data;
-    mutable std::vector<NodeVector<dim>> last_forces;
+    mutable std::vector<dealii::Tensor<1, dim>> last_forces;
   };
 
   /** At most 16 places on @p faces, spread evenly over their list; the same on

@@ -32,19 +32,15 @@ namespace quoin
   {
     /** xx, yy, xy or xx, yy, zz, xy, xz, yz [N s/m] */
     using Damping = std::array<double, dim *(dim + 1) / 2>;
-    using Force   = std::array<double, dim>; /**< [N] */
 
     Damping damping{};
-    std::array<double, dim> normal{}; /**< force per incident normal ... */
-    std::array<double, dim> shear{};  /**< ... and shear velocity [N s/m] */
+    dealii::Tensor<1, dim> normal; /**< force per incident normal ... */
+    dealii::Tensor<1, dim> shear;  /**< ... and shear velocity [N s/m] */
 
     /** Force of a wave with normal and shear velocity @p vn, @p vs [N]. */
-    std::array<double, dim> pull(const double vn, const double vs) const
+    dealii::Tensor<1, dim> pull(const double vn, const double vs) const
     {
-      std::array<double, dim> force;
-      for (unsigned int d = 0; d < dim; ++d)
-        force[d] = vn * normal[d] + vs * shear[d];
-      return force;
+      return vn * normal + vs * shear;
     }
   };
 
@@ -73,8 +69,7 @@ namespace quoin
   void move_with_dashpot(const StepContext &step,
                          const CapturedNode<dim> &before,
                          const typename Dashpot<dim>::Damping &damping,
-                         const typename Dashpot<dim>::Force &pull,
-                         State<dim> &state);
+                         const dealii::Tensor<1, dim> &pull, State<dim> &state);
 
   /**
    * Books the work of move_with_dashpot() for the components that @p owner
@@ -85,7 +80,7 @@ namespace quoin
   void account_for_dashpot(const StepContext &step,
                            const CapturedNode<dim> &before,
                            const typename Dashpot<dim>::Damping &damping,
-                           const typename Dashpot<dim>::Force &pull,
+                           const dealii::Tensor<1, dim> &pull,
                            const MotionConstraint<dim> *owner,
                            std::array<double, 3> &resultant, State<dim> &state);
 
@@ -152,8 +147,8 @@ namespace quoin
     void hold(const std::vector<CapturedNode<dim>> &captured,
               ViscousBoundaryState<dim> &own) const;
     /** Force of the incident wave and held force on the i-th node [N]. */
-    std::array<double, dim> pull(unsigned int i, double vn, double vs,
-                                 const ViscousBoundaryState<dim> &own) const;
+    dealii::Tensor<1, dim> pull(unsigned int i, double vn, double vs,
+                                const ViscousBoundaryState<dim> &own) const;
 
     std::array<LoadComponent, 3> components;
     std::vector<Dashpot<dim>> dashpots;

@@ -17,9 +17,9 @@ namespace quoin
   template <int dim>
   struct NodeForces
   {
-    NodeVector<dim> *force; /**< [N] */
+    dealii::Tensor<1, dim> *force; /**< [N] */
     /** Forces of stiffness-proportional damping [N]; null: there is none. */
-    NodeVector<dim> *viscous;
+    dealii::Tensor<1, dim> *viscous;
   };
 
   /**
@@ -112,7 +112,7 @@ namespace quoin
 
     /** Adds its forces at @p time [N] if they follow from time alone. */
     virtual void add_loads(const TimePoint & /*time*/,
-                           NodeVector<dim> * /*force*/) const
+                           dealii::Tensor<1, dim> * /*force*/) const
     {
     }
 
@@ -165,8 +165,9 @@ namespace quoin
     }
 
     /** Power [W] of external work on nodes that move with @p velocity. */
-    virtual double external_power(const TimePoint &,
-                                  const NodeVector<dim> * /*velocity*/) const
+    virtual double
+    external_power(const TimePoint &,
+                   const dealii::Tensor<1, dim> * /*velocity*/) const
     {
       return 0.;
     }

@@ -5,7 +5,7 @@
 #define quoin_operators_state_h
 
 #include <quoin/base/archive_members.h>
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 #include <quoin/operators/energy_accounts.h>
 #include <quoin/operators/state_slices.h>
 
@@ -46,7 +46,7 @@ namespace quoin
     double load_rate_growth  = 1.; /**< factor by step [-] */
 
     AlignedArray<NodeRecord<dim>> nodes;
-    AlignedArray<NodeVector<dim>> velocity; /**< at time - dt/2 */
+    AlignedArray<dealii::Tensor<1, dim>> velocity; /**< at time - dt/2 */
     /** block_mark of each block of the mesh; empty: all are present. */
     AlignedArray<std::uint8_t> block_marks;
     double adaptive_damping   = 0.; /**< [1/s] */

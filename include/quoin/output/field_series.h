@@ -11,6 +11,8 @@
 
 #include <mpi.h>
 
+#include <quoin/base/packed_vectors.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -79,6 +81,17 @@ namespace quoin
     result.reserve(n * entries.size());
     for (const std::array<T, n> &entry : entries)
       result.insert(result.end(), entry.begin(), entry.end());
+    return result;
+  }
+
+  /** The components of vectors, one after the other; also of points. */
+  template <typename Vector, int dim = Vector::dimension>
+  std::vector<double> flat(const std::vector<Vector> &vectors)
+  {
+    std::vector<double> result;
+    result.reserve(dim * vectors.size());
+    for (const dealii::Tensor<1, dim> &vector : vectors)
+      append_vector(result, vector);
     return result;
   }
 } // namespace quoin

@@ -49,14 +49,14 @@ namespace quoin
     StaticSolution solve_static();
 
     /** Points of histories and of the sampled field in the domain [m]. */
-    std::vector<Eigen::Vector2d> points_in_domain() const;
+    std::vector<dealii::Point<2>> points_in_domain() const;
     /** Whether results in the domain need the record of the boundary. */
     bool needs_record() const;
     /** Total displacements of points in the domain at the ends of some steps
         [m]; collective. */
     Eigen::MatrixXd
     domain_displacements(const BoundaryRecord &all,
-                         const std::vector<Eigen::Vector2d> &points,
+                         const std::vector<dealii::Point<2>> &points,
                          const std::vector<unsigned int> &steps) const;
 
     const Parameters &parameters;

@@ -58,12 +58,12 @@ namespace quoin
         spin are velocities. */
     struct Sums
     {
-      double displacement[2]{}; /**< sum of m u [kg m] */
-      double sine   = 0.;       /**< sum of m r x u [kg m^2] */
-      double cosine = 0.;       /**< sum of m r . u [kg m^2] */
-      double momentum[2]{};     /**< sum of m v [kg m/s] */
-      double spin   = 0.;       /**< sum of m (r + u) x v [kg m^2/s] */
-      double square = 0.;       /**< sum of m |r + u|^2 [kg m^2] */
+      dealii::Tensor<1, 2> displacement; /**< sum of m u [kg m] */
+      double sine   = 0.;                /**< sum of m r x u [kg m^2] */
+      double cosine = 0.;                /**< sum of m r . u [kg m^2] */
+      dealii::Tensor<1, 2> momentum;     /**< sum of m v [kg m/s] */
+      double spin   = 0.;                /**< sum of m (r + u) x v [kg m^2/s] */
+      double square = 0.;                /**< sum of m |r + u|^2 [kg m^2] */
     };
     /** Forces x, y [N] and moment about the centroid at rest [N m]. */
     using Force = std::array<double, 3>;
@@ -103,8 +103,8 @@ namespace quoin
     /** Adds @p share of the velocities of @p state to the sums. */
     void add_velocities(const State<2> &state, double share);
     void add_force(const Pair &pair, double share,
-                   const std::array<double, 2> &place,
-                   const std::array<double, 2> &force, Force &sum) const;
+                   const dealii::Tensor<1, 2> &place,
+                   const dealii::Tensor<1, 2> &force, Force &sum) const;
     Force joint_force(const Pair &pair);
     void add_contact_forces(const ContactState &all,
                             std::vector<Force> &forces) const;
@@ -124,7 +124,8 @@ namespace quoin
     std::vector<double> counted; /**< rotation of each block [rad] */
     std::vector<Sums> sums;      /**< sums of each block */
     State<2> before; /**< positions and joints at the time of the row */
-    AlignedArray<NodeVector<2>> node_force; /**< zero but while it is used */
+    AlignedArray<dealii::Tensor<1, 2>>
+        node_force; /**< zero but while it is used */
   };
 } // namespace quoin
 

@@ -20,10 +20,10 @@ namespace quoin
   template <int dim>
   struct BlockFields
   {
-    using Vector = std::array<double, dim>;
+    using Vector = dealii::Tensor<1, dim>;
 
-    std::vector<Vector> position;     /**< reference [m] */
-    std::vector<Vector> displacement; /**< [m] */
+    std::vector<dealii::Point<dim>> position; /**< reference [m] */
+    std::vector<Vector> displacement;         /**< [m] */
     /** Displacement before the last reset; may be empty [m]. */
     std::vector<Vector> earlier_displacement;
     std::vector<Vector> velocity;                         /**< [m/s] */
@@ -46,7 +46,7 @@ namespace quoin
     std::array<double, dim> value; /**< descending: tension first [Pa] */
     /** Principal directions; in the plane the second is the first rotated by 90
         degrees, anticlockwise. */
-    std::array<std::array<double, dim>, dim> direction;
+    std::array<dealii::Tensor<1, dim>, dim> direction;
   };
 
   /** Principal stresses in the plane, of the stress xx, yy, xy, zz. */

@@ -41,7 +41,7 @@ namespace quoin
     std::vector<std::string> column_names() const;
 
     /** The points in the domain, for set_interior(). */
-    const std::vector<Eigen::Vector2d> &interior_points() const
+    const std::vector<dealii::Point<2>> &interior_points() const
     {
       return points;
     }
@@ -65,7 +65,7 @@ namespace quoin
                  const BoundaryState &state) const;
 
     std::vector<Probe> probes;
-    std::vector<Eigen::Vector2d> points;
+    std::vector<dealii::Point<2>> points;
     const BoundaryGeometry &geometry;
     std::vector<std::string> names; /**< names of the boundaries */
     double thickness;

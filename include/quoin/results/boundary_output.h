@@ -15,11 +15,11 @@ namespace quoin
   /** Boundary elements at an output time, one entry each. */
   struct BoundaryFields
   {
-    std::vector<std::array<double, 2>> a, b;         /**< ends [m] */
-    std::vector<std::array<double, 2>> displacement; /**< [m] */
-    std::vector<std::array<double, 2>> velocity;     /**< [m/s] */
-    std::vector<std::array<double, 2>> traction;     /**< [Pa] */
-    std::vector<double> hoop_stress;                 /**< [Pa] */
+    std::vector<dealii::Point<2>> a, b;             /**< ends [m] */
+    std::vector<dealii::Tensor<1, 2>> displacement; /**< [m] */
+    std::vector<dealii::Tensor<1, 2>> velocity;     /**< [m/s] */
+    std::vector<dealii::Tensor<1, 2>> traction;     /**< [Pa] */
+    std::vector<double> hoop_stress;                /**< [Pa] */
     std::vector<std::int32_t> boundary; /**< number of the boundary */
   };
 
@@ -38,10 +38,10 @@ namespace quoin
   /** Points in the domain at an output time, with triangles between them. */
   struct SampledFields
   {
-    std::vector<std::array<double, 2>> position; /**< [m] */
+    std::vector<dealii::Point<2>> position; /**< [m] */
     std::vector<std::array<std::int32_t, 3>> triangles;
-    std::vector<std::array<double, 2>> displacement; /**< [m] */
-    std::vector<std::array<double, 2>> velocity;     /**< [m/s] */
+    std::vector<dealii::Tensor<1, 2>> displacement; /**< [m] */
+    std::vector<dealii::Tensor<1, 2>> velocity;     /**< [m/s] */
   };
 
   /** The series field.pvd: the field in the domain of boundary elements. */

@@ -22,11 +22,11 @@ namespace quoin
    */
   struct JointFields
   {
-    std::vector<std::array<double, 2>> position; /**< reference [m] */
+    std::vector<dealii::Point<2>> position; /**< reference [m] */
     /** mean displacement of both sides [m] */
-    std::vector<std::array<double, 2>> displacement;
+    std::vector<dealii::Tensor<1, 2>> displacement;
     /** Displacement before the last reset; may be empty [m]. */
-    std::vector<std::array<double, 2>> earlier_displacement;
+    std::vector<dealii::Tensor<1, 2>> earlier_displacement;
     std::vector<double> opening; /**< [m] */
     std::vector<double> slip;    /**< [m] */
     /** Slip before the last reset; empty: none [m]. */
@@ -46,9 +46,9 @@ namespace quoin
       3 f + 2, slips and shear tractions are vectors in the fixed axes. */
   struct SpaceJointFields
   {
-    using Vector = std::array<double, 3>;
+    using Vector = dealii::Tensor<1, 3>;
 
-    std::vector<Vector> position; /**< reference [m] */
+    std::vector<dealii::Point<3>> position; /**< reference [m] */
     /** mean displacement of both sides [m] */
     std::vector<Vector> displacement;
     /** Displacement before the last reset; may be empty [m]. */

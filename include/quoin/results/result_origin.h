@@ -26,7 +26,7 @@ namespace quoin
     static constexpr const char *slice_name = "origin of results";
 
     /** Displacement of local nodes [m]. */
-    AlignedArray<NodeVector<dim>> displacement;
+    AlignedArray<dealii::Tensor<1, dim>> displacement;
     /** Slip of joint points, its dim - 1 components [m]. */
     AlignedArray<double> slip;
     /** Whether each joint point was intact where a stage began, or has slipped

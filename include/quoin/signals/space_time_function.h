@@ -50,7 +50,7 @@ namespace quoin
     {
       return evaluate(x, { t, t });
     }
-    double operator()(const Eigen::Vector2d &x, const double t) const
+    double operator()(const dealii::Point<2> &x, const double t) const
     {
       return evaluate({ x[0], x[1], 0. }, { t, t });
     }

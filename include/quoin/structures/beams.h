@@ -26,18 +26,18 @@ namespace quoin
   {
     static constexpr const char *slice_name = "beams";
 
-    AlignedArray<std::uint8_t> placed;    /**< flag of each beam */
-    AlignedArray<NodeRecord<2>> nodes;    /**< X: where they were placed */
-    AlignedArray<NodeVector<2>> velocity; /**< at time - dt/2 */
-    AlignedArray<double> plastic;         /**< plastic turning angle [rad] */
-    AlignedArray<double> moment;          /**< of the last step [N m] */
-    AlignedArray<std::uint8_t> attached;  /**< flag of each interface point */
+    AlignedArray<std::uint8_t> placed; /**< flag of each beam */
+    AlignedArray<NodeRecord<2>> nodes; /**< X: where they were placed */
+    AlignedArray<dealii::Tensor<1, 2>> velocity; /**< at time - dt/2 */
+    AlignedArray<double> plastic;        /**< plastic turning angle [rad] */
+    AlignedArray<double> moment;         /**< of the last step [N m] */
+    AlignedArray<std::uint8_t> attached; /**< flag of each interface point */
     /** Opening and slip at placement [m]. */
-    AlignedArray<NodeVector<2>> offset;
+    AlignedArray<dealii::Tensor<1, 2>> offset;
     JointHistory interface; /**< of the interface points */
     // What the last step leaves behind.
-    AlignedArray<double> block_position; /**< x, y of these points [m] */
-    AlignedArray<NodeVector<2>> load;    /**< of equilibrium [N] */
+    AlignedArray<double> block_position;     /**< x, y of these points [m] */
+    AlignedArray<dealii::Tensor<1, 2>> load; /**< of equilibrium [N] */
     double stored_strain = 0., stored_joint = 0.; /**< [J] */
 
     template <typename Visitor>
@@ -143,7 +143,7 @@ namespace quoin
      * there is no equilibrium. Collective.
      */
     bool settle(const TimePoint &time, const State<2> &committed,
-                State<2> &state, NodeVector<2> *block_force,
+                State<2> &state, dealii::Tensor<1, 2> *block_force,
                 Condensed *stiffness) const;
     unsigned int n_points() const
     {
@@ -284,13 +284,13 @@ namespace quoin
         returns the sum of their sizes [N]. */
     double add_internal_forces(const Line &line, BeamState &beams,
                                EnergyAccounts &energy,
-                               NodeVector<2> *force) const;
+                               dealii::Tensor<1, 2> *force) const;
     /** Updates the interface, @p state tells which blocks are absent; the
         forces on blocks are the opposite of @p by_point, of each point [N]. */
     double add_interface_forces(const Line &line, const State<2> &state,
                                 BeamState &beams, EnergyAccounts &energy,
-                                NodeVector<2> *force,
-                                NodeVector<2> *by_point) const;
+                                dealii::Tensor<1, 2> *force,
+                                dealii::Tensor<1, 2> *by_point) const;
     /** Minus the derivative of the forces on the nodes of @p line by their
         displacements [N/m], which went from @p before to @p now, and that of
         each of its interface points by its gap. */
@@ -300,7 +300,8 @@ namespace quoin
     /** Equilibrium of one beam, see settle(). */
     bool settle(const Line &line, const TimePoint &time, const State<2> &marks,
                 BeamState &beams, EnergyAccounts &energy,
-                NodeVector<2> *by_point, Eigen::MatrixXd *condensed) const;
+                dealii::Tensor<1, 2> *by_point,
+                Eigen::MatrixXd *condensed) const;
     /** Loads of one beam: weight included by length [N/m], at both ends [N]. */
     struct Loads
     {
@@ -340,7 +341,8 @@ namespace quoin
     // line is curved, the curvature [1/m].
     std::vector<double> rest_segment, rest_length, rest_angle, curvature;
     std::vector<double> mass, inverse_mass; /**< [kg], [1/kg] */
-    AlignedArray<NodeVector<2>> force, viscous, velocity_before, point_force;
+    AlignedArray<dealii::Tensor<1, 2>> force, viscous, velocity_before,
+        point_force;
   };
 } // namespace quoin
 

@@ -44,7 +44,7 @@ namespace quoin
    * that is infinite.
    */
   TimeKernels element_integrals(const ElasticMedium &medium, double time,
-                                const Eigen::Vector2d &source,
+                                const dealii::Point<2> &source,
                                 const BoundaryElement &element);
 
   /**

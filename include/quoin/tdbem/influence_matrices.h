@@ -105,7 +105,8 @@ namespace quoin
     struct Element
     {
       BoundaryElement shape;
-      Eigen::Vector2d a, b, tangent, normal;
+      dealii::Point<2> a, b;
+      dealii::Tensor<1, 2> tangent, normal;
       double length;
     };
 

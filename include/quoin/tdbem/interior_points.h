@@ -51,7 +51,7 @@ namespace quoin
    */
   Eigen::MatrixXd interior_displacements(
       const Boundary &boundary, const ElasticMedium &medium,
-      const BoundaryRecord &record, const std::vector<Eigen::Vector2d> &points,
+      const BoundaryRecord &record, const std::vector<dealii::Point<2>> &points,
       const std::vector<unsigned> &steps, MPI_Comm communicator);
 
   /**
@@ -62,7 +62,7 @@ namespace quoin
   static_interior_displacements(const Boundary &boundary,
                                 const ElasticMedium &medium,
                                 const StaticSolution &solution,
-                                const std::vector<Eigen::Vector2d> &points);
+                                const std::vector<dealii::Point<2>> &points);
 } // namespace quoin
 
 #endif

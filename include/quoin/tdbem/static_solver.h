@@ -23,7 +23,7 @@ namespace quoin
      * Sum of the tractions' forces on an unbounded domain [N/m], used if a
      * displacement is known. Zero keeps displacements bounded.
      */
-    Eigen::Vector2d net_force = Eigen::Vector2d::Zero();
+    dealii::Tensor<1, 2> net_force = dealii::Tensor<1, 2>();
   };
 
   struct StaticSolution
@@ -31,7 +31,7 @@ namespace quoin
     Eigen::VectorXd displacement; /**< [m] */
     Eigen::VectorXd traction;     /**< [Pa] */
     /** See solve_static() [m]. */
-    Eigen::Vector2d constant = Eigen::Vector2d::Zero();
+    dealii::Tensor<1, 2> constant = dealii::Tensor<1, 2>();
   };
 
   /**

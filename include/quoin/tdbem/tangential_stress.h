@@ -53,11 +53,11 @@ namespace quoin
     struct Stencil
     {
       std::array<unsigned, 3> elements;
-      std::array<Eigen::Vector2d, 3> weights;
+      std::array<dealii::Tensor<1, 2>, 3> weights;
     };
 
     std::vector<Stencil> stencils;
-    std::vector<Eigen::Vector2d> normals;
+    std::vector<dealii::Tensor<1, 2>> normals;
     double of_traction; /**< factor of sigma_nn */
     double of_strain;   /**< [Pa] */
   };

@@ -106,9 +106,10 @@ namespace quoin
 
     /** Solves the flow if it is due in this step. */
     void update(const StepContext &step, State<2> &state) override;
-    void add_loads(const TimePoint &time, NodeVector<2> *force) const override;
+    void add_loads(const TimePoint &time,
+                   dealii::Tensor<1, 2> *force) const override;
     double external_power(const TimePoint &time,
-                          const NodeVector<2> *velocity) const override;
+                          const dealii::Tensor<1, 2> *velocity) const override;
     /** Largest eigenvalue of the stiffness of the water in explicit steps, by
         the @p mass of the local nodes [1/s^2]; collective. */
     double largest_eigenvalue(const std::vector<double> &mass) const;
@@ -222,8 +223,8 @@ namespace quoin
     std::vector<std::uint8_t> is_wall; /**< nodes at absent blocks */
 
     JointFlowState now, before;
-    std::vector<unsigned int> force_nodes; /**< local, owned */
-    std::vector<NodeVector<2>> forces;     /**< [N] */
+    std::vector<unsigned int> force_nodes;    /**< local, owned */
+    std::vector<dealii::Tensor<1, 2>> forces; /**< [N] */
     FixedPointAcceleration acceleration;
     unsigned int n_iterations = 0;
   };

@@ -42,7 +42,7 @@ namespace
   Forces3 random_velocity(TetrahedronBlocks &mesh)
   {
     Forces3 velocity = mesh.zero();
-    for (NodeVector<3> &v : velocity)
+    for (dealii::Tensor<1, 3> &v : velocity)
       for (double &component : v.v)
         component = mesh.uniform(1.);
     return velocity;
@@ -287,7 +287,7 @@ TEST(BlockForces3, CellsMayHaveNodesBehindThoseOfAllBlocks)
   const Forces3 force = cut.forces(blocks);
   for (unsigned int i = 0; i < number.size(); ++i)
     for (unsigned int d = 0; d < 3; ++d)
-      EXPECT_NEAR(force[number[i]].v[d], expected[i].v[d],
+      EXPECT_NEAR(force[number[i]][d], expected[i][d],
                   1e-13 * largest(expected));
 }
 
@@ -320,7 +320,7 @@ TEST(BlockForces3, AreMinusTheGradientOfTheEnergy)
                               - (energy(2. * h) - energy(-2. * h)))
                              / (12. * h);
         u = before;
-        EXPECT_NEAR(force[i].v[d], -slope, 1e-9 * largest(force));
+        EXPECT_NEAR(force[i][d], -slope, 1e-9 * largest(force));
       }
   }
 }
@@ -405,9 +405,9 @@ TEST(BlockForces3, ViscousForces)
   const Forces3 at_rest = viscous_forces(blocks, mesh, velocity, beta);
   for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
     for (unsigned int d = 0; d < 3; ++d)
-      mesh.nodes[i].u[d] = h * velocity[i].v[d];
+      mesh.nodes[i].u[d] = h * velocity[i][d];
   Forces3 rate = mesh.forces(blocks);
-  for (NodeVector<3> &f : rate)
+  for (dealii::Tensor<1, 3> &f : rate)
     for (double &component : f.v)
       component *= beta / h;
   EXPECT_LT(largest_difference(at_rest, rate), 1e-5 * largest(at_rest));
@@ -445,7 +445,7 @@ TEST(BlockForces3, StiffnessIsTheDerivativeOfTheForces)
     }
     const Forces3 force = mesh.forces(blocks);
     for (unsigned int i = 0; i < n; ++i)
-      EXPECT_NEAR(sum[i], force[i / 3].v[i % 3], 1e-13 * stone.young);
+      EXPECT_NEAR(sum[i], force[i / 3][i % 3], 1e-13 * stone.young);
     EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-13 * K.norm());
 
     const double h = 1e-4;
@@ -462,7 +462,7 @@ TEST(BlockForces3, StiffnessIsTheDerivativeOfTheForces)
       u = before;
       for (unsigned int i = 0; i < n; ++i)
       {
-        const auto f = [i](const Forces3 &a) { return a[i / 3].v[i % 3]; };
+        const auto f = [i](const Forces3 &a) { return a[i / 3][i % 3]; };
         EXPECT_NEAR((8. * (f(p) - f(m)) - (f(pp) - f(mm))) / (12. * h),
                     -K(i, j), 1e-9 * K.norm());
       }
@@ -487,7 +487,7 @@ TEST(BlockForces3, InvertedCellsAreFound)
   EXPECT_LT(first_inverted_cell(blocks, mesh.nodes.data()),
             blocks.cell_data().cells.size());
   const Forces3 force = mesh.forces(blocks);
-  EXPECT_LT(force[0].v[0] + force[0].v[1] + force[0].v[2], 0.);
+  EXPECT_LT(force[0][0] + force[0][1] + force[0][2], 0.);
 
   std::swap(mesh.data.cells[5][0], mesh.data.cells[5][1]);
   blocks.prepare(mesh.data);
@@ -539,7 +539,7 @@ TEST(BlockForces3d, YieldingBlocksAgreeWithSingleCells)
         EXPECT_GT(n_yielded, 100u);
         // Forces of blocks add up to nothing.
         Vector3d sum = Vector3d::Zero();
-        for (const NodeVector<3> &f : force_a)
+        for (const dealii::Tensor<1, 3> &f : force_a)
           sum += vector(f.v);
         EXPECT_LT(sum.norm(), 1e-9 * largest(force_a));
       }
@@ -588,7 +588,7 @@ TEST(BlockForces3d, ForcesOfYieldedCellsAreThoseOfTheirEnergy)
         energy[side]       = strain_energy(blocks, mesh.nodes.data(), history);
       }
       mesh.nodes[i].u[d] = u;
-      EXPECT_NEAR(force[i].v[d], -(energy[1] - energy[0]) / (2. * h),
+      EXPECT_NEAR(force[i][d], -(energy[1] - energy[0]) / (2. * h),
                   1e-5 * largest(force));
     }
   EXPECT_GT(n_checked, 10u);

@@ -15,11 +15,11 @@ using namespace quoin;
 
 namespace
 {
-  using Forces = AlignedArray<NodeVector<2>>;
+  using Forces = AlignedArray<dealii::Tensor<1, 2>>;
 
   Forces strip_forces(const BlockForces<2> &blocks, const RandomBlocks &mesh)
   {
-    Forces force(mesh.nodes.size(), NodeVector<2>{ { 0., 0. } });
+    Forces force(mesh.nodes.size(), dealii::Tensor<1, 2>());
     PlasticHistory none;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       blocks.add_forces(tile, mesh.nodes.data(), none, force.data());
@@ -29,7 +29,7 @@ namespace
   Forces cell_forces(const BlockForces<2> &blocks, const RandomBlocks &mesh)
   {
     PlasticHistory none;
-    Forces force(mesh.nodes.size(), NodeVector<2>{ { 0., 0. } });
+    Forces force(mesh.nodes.size(), dealii::Tensor<1, 2>());
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       add_forces_by_cell(blocks, tile, mesh.nodes.data(), none, force.data());
     return force;
@@ -39,7 +39,7 @@ namespace
                         const Forces &velocity, const bool by_cell = false)
   {
     const double beta = 2e-5;
-    Forces force(mesh.nodes.size(), NodeVector<2>{ { 0., 0. } });
+    Forces force(mesh.nodes.size(), dealii::Tensor<1, 2>());
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       if (by_cell)
         add_viscous_forces_by_cell(blocks, tile, mesh.nodes.data(),
@@ -53,8 +53,8 @@ namespace
   double largest(const Forces &a)
   {
     double max = 0.;
-    for (const NodeVector<2> &f : a)
-      max = std::max({ max, std::abs(f.v[0]), std::abs(f.v[1]) });
+    for (const dealii::Tensor<1, 2> &f : a)
+      max = std::max({ max, std::abs(f[0]), std::abs(f[1]) });
     return max;
   }
 
@@ -63,7 +63,7 @@ namespace
     double max = 0.;
     for (std::size_t i = 0; i < a.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        max = std::max(max, std::abs(a[i].v[d] - b[i].v[d]));
+        max = std::max(max, std::abs(a[i][d] - b[i][d]));
     return max;
   }
 
@@ -71,8 +71,7 @@ namespace
   {
     double sum = 0.;
     for (std::size_t i = 0; i < force.size(); ++i)
-      sum += force[i].v[0] * velocity[i].v[0]
-             + force[i].v[1] * velocity[i].v[1];
+      sum += force[i][0] * velocity[i][0] + force[i][1] * velocity[i][1];
     return sum;
   }
 
@@ -184,12 +183,12 @@ TEST(BlockForces, UniformStrainPatch)
       const double fx      = -along_x * (side_x * sxx + side_y * sxy);
       const double fy      = -along_x * (side_x * sxy + side_y * syy);
       // Rotations of the order of the strain: their product remains.
-      EXPECT_NEAR(force[i].v[0], fx, 1e-5 * scale);
-      EXPECT_NEAR(force[i].v[1], fy, 1e-5 * scale);
+      EXPECT_NEAR(force[i][0], fx, 1e-5 * scale);
+      EXPECT_NEAR(force[i][1], fy, 1e-5 * scale);
       if (side_x == 0. && side_y == 0.)
       {
-        EXPECT_NEAR(force[i].v[0], 0., 1e-9 * scale);
-        EXPECT_NEAR(force[i].v[1], 0., 1e-9 * scale);
+        EXPECT_NEAR(force[i][0], 0., 1e-9 * scale);
+        EXPECT_NEAR(force[i][1], 0., 1e-9 * scale);
       }
     }
     std::vector<std::array<double, 4>> stress;
@@ -259,8 +258,8 @@ TEST(BlockForces, ForcesAddToWhatIsThere)
   for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
     blocks.add_forces(tile, mesh.nodes.data(), none, twice.data());
   Forces once = strip_forces(blocks, mesh);
-  for (NodeVector<2> &f : once)
-    f = { { 2. * f.v[0], 2. * f.v[1] } };
+  for (dealii::Tensor<1, 2> &f : once)
+    f = { { 2. * f[0], 2. * f[1] } };
   EXPECT_LT(largest_difference(twice, once), 1e-14 * largest(once));
 }
 
@@ -323,7 +322,7 @@ TEST(BlockForces, AreMinusTheGradientOfTheEnergy)
         u                 = u0 - du;
         const double down = strain_energy(blocks, mesh.nodes.data(), {});
         u                 = u0;
-        EXPECT_NEAR(force[i].v[d], -(up - down) / (2. * du),
+        EXPECT_NEAR(force[i][d], -(up - down) / (2. * du),
                     2e-7 * largest(force));
       }
   }
@@ -350,12 +349,12 @@ TEST(BlockForces, ForcesAndMomentsOfEachBlockSumToZero)
            i < mesh.data.block_first_node[b + 1]; ++i)
       {
         const NodeRecord<2> &n = mesh.nodes[i];
-        sum[0] += force[i].v[0];
-        sum[1] += force[i].v[1];
-        sum[2] += (n.X[0] + n.u[0]) * force[i].v[1]
-                  - (n.X[1] + n.u[1]) * force[i].v[0];
-        viscous_sum[0] += viscous[i].v[0];
-        viscous_sum[1] += viscous[i].v[1];
+        sum[0] += force[i][0];
+        sum[1] += force[i][1];
+        sum[2] += (n.X[0] + n.u[0]) * force[i][1]
+                  - (n.X[1] + n.u[1]) * force[i][0];
+        viscous_sum[0] += viscous[i][0];
+        viscous_sum[1] += viscous[i][1];
       }
       EXPECT_NEAR(sum[0], 0., 1e-11 * largest(force));
       EXPECT_NEAR(sum[1], 0., 1e-11 * largest(force));
@@ -402,14 +401,13 @@ TEST(BlockForces, ViscousForcesAreLinearAndDissipative)
   Forces sum(a.size());
   for (std::size_t i = 0; i < a.size(); ++i)
     for (unsigned int d = 0; d < 2; ++d)
-      sum[i].v[d] = a[i].v[d] - 3. * b[i].v[d];
+      sum[i][d] = a[i][d] - 3. * b[i][d];
   const Forces fa = viscous_forces(blocks, mesh, a);
   const Forces fb = viscous_forces(blocks, mesh, b);
   const Forces fs = viscous_forces(blocks, mesh, sum);
   for (std::size_t i = 0; i < a.size(); ++i)
     for (unsigned int d = 0; d < 2; ++d)
-      EXPECT_NEAR(fs[i].v[d], fa[i].v[d] - 3. * fb[i].v[d],
-                  1e-12 * largest(fs));
+      EXPECT_NEAR(fs[i][d], fa[i][d] - 3. * fb[i][d], 1e-12 * largest(fs));
   EXPECT_LT(power(fa, a), 0.);
   EXPECT_LT(power(fb, b), 0.);
 }
@@ -448,13 +446,12 @@ TEST(BlockForces, ViscousForcesAreBetaTimesTheForceRate)
     RandomBlocks moved = mesh;
     for (std::size_t i = 0; i < velocity.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        moved.nodes[i].u[d] = time * velocity[i].v[d];
+        moved.nodes[i].u[d] = time * velocity[i][d];
     return strip_forces(blocks, moved);
   };
   const Forces up = at(dt), down = at(-dt);
   for (std::size_t i = 0; i < velocity.size(); ++i)
     for (unsigned int d = 0; d < 2; ++d)
-      EXPECT_NEAR(viscous[i].v[d],
-                  2e-5 * (up[i].v[d] - down[i].v[d]) / (2. * dt),
+      EXPECT_NEAR(viscous[i][d], 2e-5 * (up[i][d] - down[i][d]) / (2. * dt),
                   1e-7 * largest(viscous));
 }

@@ -33,14 +33,15 @@ namespace
                      const AlignedArray<NodeRecord<2>> &nodes,
                      PlasticHistory &history, double *dissipated = nullptr)
   {
-    AlignedArray<NodeVector<2>> sums(nodes.size(), NodeVector<2>{ { 0., 0. } });
+    AlignedArray<dealii::Tensor<1, 2>> sums(nodes.size(),
+                                            dealii::Tensor<1, 2>());
     double lost = 0.;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       lost += blocks.add_forces(tile, nodes.data(), history, sums.data());
     if (dissipated)
       *dissipated = lost;
     Vector force;
-    for (const NodeVector<2> &sum : sums)
+    for (const dealii::Tensor<1, 2> &sum : sums)
       force.insert(force.end(), sum.v, sum.v + 2);
     return force;
   }

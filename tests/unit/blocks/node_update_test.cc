@@ -16,7 +16,7 @@ namespace
   struct NodeSet
   {
     AlignedArray<NodeRecord<dim>> nodes;
-    AlignedArray<NodeVector<dim>> velocity, force, viscous;
+    AlignedArray<dealii::Tensor<1, dim>> velocity, force, viscous;
     std::vector<double> mass, inverse_mass;
 
     explicit NodeSet(const unsigned int n, const unsigned int seed = 1)
@@ -68,14 +68,13 @@ TEST(NodeUpdate, UndampedStep)
     {
       const bool inside = i >= 1 && i < 4;
       const double v
-          = before.velocity[i].v[d]
-            + (inside ? dt_velocity * before.force[i].v[d] / before.mass[i]
-                      : 0.);
-      EXPECT_NEAR(set.velocity[i].v[d], v, 1e-15);
+          = before.velocity[i][d]
+            + (inside ? dt_velocity * before.force[i][d] / before.mass[i] : 0.);
+      EXPECT_NEAR(set.velocity[i][d], v, 1e-15);
       EXPECT_NEAR(set.nodes[i].u[d],
                   before.nodes[i].u[d] + (inside ? dt * v : 0.), 1e-15);
       EXPECT_EQ(set.nodes[i].X[d], before.nodes[i].X[d]);
-      EXPECT_EQ(set.force[i].v[d], inside ? 0. : before.force[i].v[d]);
+      EXPECT_EQ(set.force[i][d], inside ? 0. : before.force[i][d]);
     }
 }
 
@@ -90,15 +89,15 @@ TEST(NodeUpdate, MassDampingIsCentredInTime)
   for (unsigned int i = 0; i < 20; ++i)
     for (unsigned int d = 0; d < 2; ++d)
     {
-      const double m = before.mass[i], v0 = before.velocity[i].v[d];
-      const double fv = before.viscous[i].v[d];
+      const double m = before.mass[i], v0 = before.velocity[i][d];
+      const double fv = before.viscous[i][d];
       const double v1 = (v0 * (1. / dt_velocity - 0.5 * alpha)
-                         + (before.force[i].v[d] + fv) / m)
+                         + (before.force[i][d] + fv) / m)
                         / (1. / dt_velocity + 0.5 * alpha);
-      EXPECT_NEAR(set.velocity[i].v[d], v1, 1e-14);
+      EXPECT_NEAR(set.velocity[i][d], v1, 1e-14);
       EXPECT_NEAR(set.nodes[i].u[d], before.nodes[i].u[d] + dt * v1, 1e-14);
-      EXPECT_EQ(set.force[i].v[d], 0.);
-      EXPECT_EQ(set.viscous[i].v[d], 0.);
+      EXPECT_EQ(set.force[i][d], 0.);
+      EXPECT_EQ(set.viscous[i][d], 0.);
       const double drag = alpha * m * 0.5 * (v0 + v1) - fv;
       before_work += 0.5 * dt_before * drag * v0;
       after_work += 0.5 * dt * drag * v1;
@@ -121,10 +120,10 @@ TEST(NodeUpdate, LocalDampingTakesAShareOfTheForce)
   for (unsigned int i = 0; i < 20; ++i)
     for (unsigned int d = 0; d < 2; ++d)
     {
-      const double f     = before.force[i].v[d];
-      const double sense = before.velocity[i].v[d] > 0. ? 1. : -1.;
-      EXPECT_NEAR(set.velocity[i].v[d],
-                  before.velocity[i].v[d]
+      const double f     = before.force[i][d];
+      const double sense = before.velocity[i][d] > 0. ? 1. : -1.;
+      EXPECT_NEAR(set.velocity[i][d],
+                  before.velocity[i][d]
                       + dt / before.mass[i] * (f - sense * c * std::abs(f)),
                   1e-14);
     }
@@ -163,7 +162,7 @@ TEST(NodeUpdate, LocalDampingNeverDoesPositiveWork)
         EXPECT_GE(work.before + work.after, 0.);
         taken += work.before + work.after;
         set.force[0]
-            = { { -70. * set.velocity[0].v[0], -20. * set.velocity[0].v[1] } };
+            = { { -70. * set.velocity[0][0], -20. * set.velocity[0][1] } };
       }
       EXPECT_GT(taken, 0.);
     }
@@ -180,9 +179,9 @@ TEST(NodeUpdate, WhatDampingTakesIsMissingFromTheKineticEnergy)
   for (unsigned int i = 0; i < 50; ++i)
     for (unsigned int d = 0; d < 2; ++d)
     {
-      const double v0 = before.velocity[i].v[d], v1 = set.velocity[i].v[d];
+      const double v0 = before.velocity[i][d], v1 = set.velocity[i][d];
       change += 0.5 * before.mass[i] * (v1 * v1 - v0 * v0);
-      power += 0.5 * dt * before.force[i].v[d] * (v0 + v1);
+      power += 0.5 * dt * before.force[i][d] * (v0 + v1);
       mass_power += before.mass[i] * 0.25 * (v0 + v1) * (v0 + v1);
     }
   EXPECT_NEAR(change, power - work.before - work.after, 1e-13);
@@ -202,7 +201,7 @@ TEST(NodeUpdate, ZeroFactorsAreUndamped)
   for (unsigned int i = 0; i < 30; ++i)
     for (unsigned int d = 0; d < 2; ++d)
     {
-      EXPECT_NEAR(damped.velocity[i].v[d], undamped.velocity[i].v[d], 1e-15);
+      EXPECT_NEAR(damped.velocity[i][d], undamped.velocity[i][d], 1e-15);
       EXPECT_NEAR(damped.nodes[i].u[d], undamped.nodes[i].u[d], 1e-15);
     }
   EXPECT_EQ(work.before, 0.);
@@ -213,18 +212,18 @@ TEST(NodeUpdate, ConstrainedNodesKeepTheirVelocity)
 {
   Nodes set(4);
   set.mass[2] = set.inverse_mass[2] = 0.;
-  const NodeVector<2> v             = set.velocity[2];
+  const dealii::Tensor<1, 2> v      = set.velocity[2];
   Nodes undamped                    = set;
   const auto all = set.damped<true>({ 0.8, 2., 0.1, 0.1 }, 0.1);
-  EXPECT_EQ(set.velocity[2].v[0], v.v[0]);
-  EXPECT_EQ(set.velocity[2].v[1], v.v[1]);
-  EXPECT_EQ(set.force[2].v[0], 0.);
+  EXPECT_EQ(set.velocity[2][0], v[0]);
+  EXPECT_EQ(set.velocity[2][1], v[1]);
+  EXPECT_EQ(set.force[2][0], 0.);
 
   advance_nodes(0, 4, undamped.nodes.data(), undamped.velocity.data(),
                 undamped.force.data(), undamped.inverse_mass.data(), 0.1, 0.1);
-  EXPECT_EQ(undamped.velocity[2].v[0], v.v[0]);
-  EXPECT_EQ(undamped.velocity[2].v[1], v.v[1]);
-  EXPECT_NE(undamped.velocity[1].v[0], v.v[0]);
+  EXPECT_EQ(undamped.velocity[2][0], v[0]);
+  EXPECT_EQ(undamped.velocity[2][1], v[1]);
+  EXPECT_NE(undamped.velocity[1][0], v[0]);
 
   // It counts in none of the sums.
   Nodes others(4);
@@ -251,21 +250,21 @@ TEST(NodeUpdate, ThreeComponents)
     for (unsigned int d = 0; d < 3; ++d)
     {
       const bool inside = i >= 1 && i < 6;
-      const double m = before.mass[i], f = before.force[i].v[d],
-                   v0 = before.velocity[i].v[d];
+      const double m = before.mass[i], f = before.force[i][d],
+                   v0 = before.velocity[i][d];
       const double v  = v0 + (inside ? dt_velocity * f / m : 0.);
-      EXPECT_NEAR(set.velocity[i].v[d], v, 1e-15);
+      EXPECT_NEAR(set.velocity[i][d], v, 1e-15);
       EXPECT_NEAR(set.nodes[i].u[d],
                   before.nodes[i].u[d] + (inside ? dt * v : 0.), 1e-15);
       EXPECT_EQ(set.nodes[i].X[d], before.nodes[i].X[d]);
-      EXPECT_EQ(set.force[i].v[d], inside ? 0. : f);
+      EXPECT_EQ(set.force[i][d], inside ? 0. : f);
 
-      const double fv = before.viscous[i].v[d], v1 = damped.velocity[i].v[d];
+      const double fv = before.viscous[i][d], v1 = damped.velocity[i][d];
       EXPECT_NEAR(m * (v1 - v0) / dt, f + fv - alpha * m * 0.5 * (v0 + v1),
                   1e-13);
       EXPECT_NEAR(damped.nodes[i].u[d], before.nodes[i].u[d] + dt * v1, 1e-15);
-      EXPECT_EQ(damped.force[i].v[d], 0.);
-      EXPECT_EQ(damped.viscous[i].v[d], 0.);
+      EXPECT_EQ(damped.force[i][d], 0.);
+      EXPECT_EQ(damped.viscous[i][d], 0.);
       taken += 0.5 * dt * (alpha * m * 0.5 * (v0 + v1) - fv) * (v0 + v1);
       power += 0.25 * m * (v0 + v1) * (v0 + v1);
       change += 0.5 * m * (v1 * v1 - v0 * v0);

@@ -18,7 +18,7 @@ using namespace quoin::test;
 
 namespace
 {
-  using Forces = AlignedArray<NodeVector<2>>;
+  using Forces = AlignedArray<dealii::Tensor<1, 2>>;
 
   constexpr double degree = 0.017453292519943295;
   constexpr LinearElastic rock{ 2500., 10e9, 0.25 };
@@ -52,7 +52,7 @@ namespace
                     const bool by_cell = false)
   {
     double dissipated = 0.;
-    force.assign(mesh.nodes.size(), NodeVector<2>{});
+    force.assign(mesh.nodes.size(), dealii::Tensor<1, 2>());
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       dissipated += by_cell ? add_forces_by_cell(
                         blocks, tile, mesh.nodes.data(), history, force.data())
@@ -64,8 +64,8 @@ namespace
   double largest(const Forces &a)
   {
     double max = 0.;
-    for (const NodeVector<2> &f : a)
-      max = std::max({ max, std::abs(f.v[0]), std::abs(f.v[1]) });
+    for (const dealii::Tensor<1, 2> &f : a)
+      max = std::max({ max, std::abs(f[0]), std::abs(f[1]) });
     return max;
   }
 
@@ -74,7 +74,7 @@ namespace
     double max = 0.;
     for (std::size_t i = 0; i < a.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        max = std::max(max, std::abs(a[i].v[d] - b[i].v[d]));
+        max = std::max(max, std::abs(a[i][d] - b[i][d]));
     return max;
   }
 
@@ -187,7 +187,7 @@ TEST(PlasticBlocks, WorkIsStoredOrDissipated)
       for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
         for (unsigned int d = 0; d < 2; ++d)
         {
-          const double w = -0.5 * (before[i].v[d] + after[i].v[d])
+          const double w = -0.5 * (before[i][d] + after[i][d])
                            * (mesh.nodes[i].u[d] - old[i].u[d]);
           work += w;
         }
@@ -233,9 +233,9 @@ TEST(PlasticBlocks, TurnWithoutYielding)
     EXPECT_NEAR(history.shear[k], flowed[k], 1e-12);
   for (std::size_t i = 0; i < force.size(); ++i)
   {
-    EXPECT_NEAR(turned[i].v[0], c * force[i].v[0] - s * force[i].v[1],
+    EXPECT_NEAR(turned[i][0], c * force[i][0] - s * force[i][1],
                 1e-9 * largest(force));
-    EXPECT_NEAR(turned[i].v[1], s * force[i].v[0] + c * force[i].v[1],
+    EXPECT_NEAR(turned[i][1], s * force[i][0] + c * force[i][1],
                 1e-9 * largest(force));
   }
 }

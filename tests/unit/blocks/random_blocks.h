@@ -4,7 +4,7 @@
 #ifndef quoin_tests_unit_dynamics_random_blocks_h
 #define quoin_tests_unit_dynamics_random_blocks_h
 
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 #include <quoin/blocks/block_forces.h>
 
 #include <algorithm>
@@ -116,10 +116,10 @@ namespace quoin
           u += strain * reach[i] * random();
     }
 
-    AlignedArray<NodeVector<2>> random_velocity()
+    AlignedArray<dealii::Tensor<1, 2>> random_velocity()
     {
-      AlignedArray<NodeVector<2>> velocity(nodes.size());
-      for (NodeVector<2> &v : velocity)
+      AlignedArray<dealii::Tensor<1, 2>> velocity(nodes.size());
+      for (dealii::Tensor<1, 2> &v : velocity)
         v = { { random(), random() } };
       return velocity;
     }

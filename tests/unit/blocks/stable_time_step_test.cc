@@ -21,8 +21,8 @@ namespace
     State<2> state = model.initial_state();
     for (unsigned int i = 0; i < u.size(); ++i)
       state.nodes[i / 2].u[i % 2] = u[i];
-    AlignedArray<NodeVector<2>> force(u.size() / 2,
-                                      NodeVector<2>{ { 0., 0. } });
+    AlignedArray<dealii::Tensor<1, 2>> force(u.size() / 2,
+                                             dealii::Tensor<1, 2>());
     EnergyAccounts energy;
     model.joints().add_forces(state.nodes.data(), state.get<JointHistory>(),
                               energy, force.data());
@@ -30,8 +30,8 @@ namespace
       model.blocks().add_forces(tile, state.nodes.data(),
                                 state.get<PlasticHistory>(), force.data());
     std::vector<double> result;
-    for (const NodeVector<2> &f : force)
-      result.insert(result.end(), { f.v[0], f.v[1] });
+    for (const dealii::Tensor<1, 2> &f : force)
+      result.insert(result.end(), { f[0], f[1] });
     return result;
   }
 
@@ -63,8 +63,8 @@ namespace
   double largest_speed(const State<2> &state)
   {
     double speed = 0.;
-    for (const NodeVector<2> &v : state.velocity)
-      speed = std::max({ speed, std::abs(v.v[0]), std::abs(v.v[1]) });
+    for (const dealii::Tensor<1, 2> &v : state.velocity)
+      speed = std::max({ speed, std::abs(v[0]), std::abs(v[1]) });
     return speed;
   }
 

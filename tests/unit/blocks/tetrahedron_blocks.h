@@ -21,7 +21,7 @@ namespace quoin::test
 {
   using Eigen::Matrix3d;
   using Eigen::Vector3d;
-  using Forces3 = AlignedArray<NodeVector<3>>;
+  using Forces3 = AlignedArray<dealii::Tensor<1, 3>>;
 
   inline Vector3d vector(const double (&a)[3])
   {
@@ -166,7 +166,7 @@ namespace quoin::test
 
     Forces3 zero() const
     {
-      return Forces3(nodes.size(), NodeVector<3>{});
+      return Forces3(nodes.size(), dealii::Tensor<1, 3>());
     }
 
     Forces3 forces(const BlockForces<3> &blocks,
@@ -186,7 +186,7 @@ namespace quoin::test
   inline double largest(const Forces3 &a)
   {
     double max = 0.;
-    for (const NodeVector<3> &f : a)
+    for (const dealii::Tensor<1, 3> &f : a)
       for (const double component : f.v)
         max = std::max(max, std::abs(component));
     return max;
@@ -196,7 +196,7 @@ namespace quoin::test
   {
     for (unsigned int i = 0; i < a.size(); ++i)
       for (unsigned int d = 0; d < 3; ++d)
-        a[i].v[d] -= b[i].v[d];
+        a[i][d] -= b[i][d];
     return largest(a);
   }
 

@@ -89,8 +89,8 @@ namespace
       for (unsigned int i = 4 * level; i < 4 * level + 4; ++i)
         for (unsigned int d = 0; d < 3; ++d)
         {
-          mesh.nodes[i].u[d]     = u * direction[d];
-          free->velocity[i].v[d] = v * direction[d];
+          mesh.nodes[i].u[d]   = u * direction[d];
+          free->velocity[i][d] = v * direction[d];
         }
     }
 
@@ -261,8 +261,8 @@ TEST(TetrahedronWaves, BarUnderASuddenEndLoad)
           for (unsigned int i = 0; i < 4; ++i)
             for (unsigned int d = 0; d < 3; ++d)
               // At rest at time 0: half a step's impulse first.
-              free.force[i].v[d] += (time > 0. ? 1. : 0.5) * traction * width
-                                    * width * free.mass[i] / end_mass * R(d, 2);
+              free.force[i][d] += (time > 0. ? 1. : 0.5) * traction * width
+                                  * width * free.mass[i] / end_mass * R(d, 2);
         });
     time += free.dt;
     if (time > 0.3 * length / c && time < 0.31 * length / c)

@@ -40,7 +40,8 @@ namespace
     double eigenvalue = 0.;
     for (unsigned int k = 0; k < 3000; ++k)
     {
-      AlignedArray<NodeVector<2>> force(mesh.nodes.size(), NodeVector<2>{});
+      AlignedArray<dealii::Tensor<1, 2>> force(mesh.nodes.size(),
+                                               dealii::Tensor<1, 2>());
       PlasticHistory none;
       for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
         add_forces_by_cell(blocks, tile, x.nodes.data(), none, force.data());
@@ -50,7 +51,7 @@ namespace
         {
           double &u = x.nodes[i].u[d];
           before += u * u;
-          u = -force[i].v[d] / mass[i];
+          u = -force[i][d] / mass[i];
           after += u * u;
         }
       eigenvalue = std::sqrt(after / before);

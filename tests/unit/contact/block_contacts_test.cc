@@ -24,7 +24,7 @@ namespace
     MatchedJoints joints;
     std::unique_ptr<BlockContacts> contacts;
     State<2> state;
-    AlignedArray<NodeVector<2>> force;
+    AlignedArray<dealii::Tensor<1, 2>> force;
 
     Scene(const std::function<void(BlockMesh<2> &)> &make,
           const std::vector<JointSetParameters> &sets = { touching() })
@@ -37,7 +37,7 @@ namespace
       contacts->prepare(state);
       for (const auto &p : mesh.vertices)
         state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
-      state.velocity.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+      state.velocity.assign(mesh.n_vertices(), dealii::Tensor<1, 2>());
     }
 
     explicit Scene(const std::vector<Rectangle> &rectangles,
@@ -97,7 +97,7 @@ namespace
     {
       if (look)
         state.get<ContactState>().next_check = state.step;
-      force.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+      force.assign(mesh.n_vertices(), dealii::Tensor<1, 2>());
       joints.add_forces(state.nodes.data(), state.get<JointHistory>(),
                         state.energy, force.data());
       // A look hands over: the joints' forces are those before it.
@@ -116,10 +116,10 @@ namespace
                 [&](const unsigned int v)
                 {
                   const NodeRecord<2> &node = state.nodes[v];
-                  sum[0] += force[v].v[0];
-                  sum[1] += force[v].v[1];
-                  sum[2] += (node.X[0] + node.u[0]) * force[v].v[1]
-                            - (node.X[1] + node.u[1]) * force[v].v[0];
+                  sum[0] += force[v][0];
+                  sum[1] += force[v][1];
+                  sum[2] += (node.X[0] + node.u[0]) * force[v][1]
+                            - (node.X[1] + node.u[1]) * force[v][0];
                 });
       return sum;
     }
@@ -169,7 +169,7 @@ TEST(BlockContacts, UniformPressurePassesBetweenMeshesThatDoNotMatch)
     for (const unsigned int v : below)
       if (scene.mesh.block_of_vertex(v) == scene.block_at(0., 0.))
       {
-        EXPECT_NEAR(scene.force[v].v[1],
+        EXPECT_NEAR(scene.force[v][1],
                     -pressure * (i == 0 || i == 3 ? 0.5 : 1.), 1e-9 * pressure);
       }
   }
@@ -177,7 +177,7 @@ TEST(BlockContacts, UniformPressurePassesBetweenMeshesThatDoNotMatch)
     for (const unsigned int v : vertices_at(scene.mesh, 3. * i / 7., 1.))
       if (scene.mesh.block_of_vertex(v) == scene.block_at(0., 2.))
       {
-        EXPECT_NEAR(scene.force[v].v[1], pressure * 3. / 7., 1e-9 * pressure);
+        EXPECT_NEAR(scene.force[v][1], pressure * 3. / 7., 1e-9 * pressure);
       }
 }
 
@@ -430,7 +430,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
               }
           }
       }
-      scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+      scene.force.assign(scene.mesh.n_vertices(), dealii::Tensor<1, 2>());
       scene.joints.add_forces(scene.state.nodes.data(),
                               matched.get<JointHistory>(), scene.state.energy,
                               scene.force.data());
@@ -465,7 +465,7 @@ TEST(BlockContacts, HandedOverJointsGoOnFromTheirHistory)
   {
     EnergyAccounts unused;
     const auto force = scene.force;
-    scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+    scene.force.assign(scene.mesh.n_vertices(), dealii::Tensor<1, 2>());
     scene.joints.add_forces(scene.state.nodes.data(), twin, unused,
                             scene.force.data());
     const auto sum = scene.total(upper);
@@ -539,7 +539,7 @@ TEST(BlockContacts, HandedOverJointsStayCrushed)
     scene.move(upper, x, y);
     scene.find_forces();
     const auto force = scene.force;
-    scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+    scene.force.assign(scene.mesh.n_vertices(), dealii::Tensor<1, 2>());
     scene.joints.add_forces(scene.state.nodes.data(), twin, of_twin,
                             scene.force.data());
     matched     = scene.total(upper);
@@ -650,7 +650,7 @@ namespace
       for (unsigned int v = 0; v < nodes.size(); ++v)
         for (unsigned int d = 0; d < 2; ++d)
         {
-          const double w = 0.5 * (force[v].v[d] + scene.force[v].v[d])
+          const double w = 0.5 * (force[v][d] + scene.force[v][d])
                            * (scene.state.nodes[v].u[d] - nodes[v].u[d]);
           work += w;
           throughput += std::abs(w);
@@ -720,7 +720,7 @@ TEST(BlockContacts, SearchesChangeNothing)
   const std::uint64_t searches = scene.state.get<ContactState>().n_searches;
   scene.state.get<ContactState>().search_positions.assign(
       scene.state.get<ContactState>().search_positions.size(),
-      NodeVector<2>{ { 1e3, 0. } });
+      dealii::Tensor<1, 2>({ 1e3, 0. }));
   scene.find_forces();
   EXPECT_EQ(scene.state.get<ContactState>().n_searches, searches + 1);
   const auto after = scene.total(upper);

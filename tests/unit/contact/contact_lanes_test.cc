@@ -46,7 +46,7 @@ namespace
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         state.nodes.push_back(
             { { nodes->point(v)[0], nodes->point(v)[1] }, { 0., 0. } });
-      state.velocity.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
+      state.velocity.assign(nodes->n_local(), dealii::Tensor<1, 2>());
     }
 
     /** Each block goes round in a circle of @p radius [m] and turns to and fro,
@@ -68,8 +68,8 @@ namespace
                 radius * std::sin(phase) + angle * x - strain * y };
         for (unsigned int d = 0; d < 2; ++d)
         {
-          state.velocity[v].v[d] = 10. * (to[d] - node.u[d]);
-          node.u[d]              = to[d];
+          state.velocity[v][d] = 10. * (to[d] - node.u[d]);
+          node.u[d]            = to[d];
         }
       }
     }
@@ -77,10 +77,10 @@ namespace
 
   struct Forces
   {
-    AlignedArray<NodeVector<2>> force, viscous;
+    AlignedArray<dealii::Tensor<1, 2>> force, viscous;
 
     Forces(BlockContacts &contacts, State<2> &state)
-      : force(state.nodes.size(), NodeVector<2>{ { 0., 0. } }), viscous(force)
+      : force(state.nodes.size(), dealii::Tensor<1, 2>()), viscous(force)
     {
       StepContext step{};
       step.dt                              = 1e-9;
@@ -101,12 +101,12 @@ namespace
       size  = std::max({ size, std::abs(a), std::abs(b) });
       error = std::max(error, a == b ? 0. : std::abs(a - b));
     }
-    void take(const AlignedArray<NodeVector<2>> &a,
-              const AlignedArray<NodeVector<2>> &b)
+    void take(const AlignedArray<dealii::Tensor<1, 2>> &a,
+              const AlignedArray<dealii::Tensor<1, 2>> &b)
     {
       for (unsigned int i = 0; i < a.size(); ++i)
         for (unsigned int d = 0; d < 2; ++d)
-          take(a[i].v[d], b[i].v[d]);
+          take(a[i][d], b[i][d]);
     }
     double share() const
     {
@@ -185,7 +185,7 @@ namespace
       State<2> &state = assembly.state;
       assembly.place(0.01 * i, radius, drift);
       // Joints that have slipped or opened too far become contacts.
-      AlignedArray<NodeVector<2>> of_joints(state.nodes.size());
+      AlignedArray<dealii::Tensor<1, 2>> of_joints(state.nodes.size());
       assembly.joints.add_forces(state.nodes.data(), state.get<JointHistory>(),
                                  state.energy, of_joints.data());
       state.energy          = EnergyAccounts();

@@ -74,7 +74,7 @@ namespace
     MatchedJoints joints;
     BlockContacts contacts;
     State<2> state;
-    AlignedArray<NodeVector<2>> force;
+    AlignedArray<dealii::Tensor<1, 2>> force;
 
     Assembly(BlockMesh<2> mesh, const Ranks &rank_of_cell,
              const std::vector<JointSetParameters> &sets,
@@ -90,7 +90,7 @@ namespace
       for (unsigned int i = 0; i < nodes.n_local(); ++i)
         state.nodes.push_back(
             { { nodes.point(i)[0], nodes.point(i)[1] }, { 0., 0. } });
-      state.velocity.assign(nodes.n_local(), NodeVector<2>{ { 0., 0. } });
+      state.velocity.assign(nodes.n_local(), dealii::Tensor<1, 2>());
     }
 
     /** Displacement of each node from its block and its place. */
@@ -111,7 +111,7 @@ namespace
 
     void find_forces(BlockContacts &by, State<2> &at)
     {
-      force.assign(nodes.n_local(), NodeVector<2>{ { 0., 0. } });
+      force.assign(nodes.n_local(), dealii::Tensor<1, 2>());
       joints.add_forces(at.nodes.data(), at.get<JointHistory>(), at.energy,
                         force.data());
       for (unsigned int i = nodes.n_owned() + nodes.exchange().n_shared();
@@ -158,13 +158,13 @@ namespace
     void compare(const double tolerance) const
     {
       double largest = 0., error = 0.;
-      for (const NodeVector<2> &f : whole.force)
+      for (const dealii::Tensor<1, 2> &f : whole.force)
         for (const double x : f.v)
           largest = std::max(largest, std::abs(x));
       for (unsigned int i = 0; i < twin.size(); ++i)
         for (unsigned int d = 0; d < 2; ++d)
           error = std::max(
-              error, std::abs(part.force[i].v[d] - whole.force[twin[i]].v[d]));
+              error, std::abs(part.force[i][d] - whole.force[twin[i]][d]));
       EXPECT_LE(error, tolerance * largest);
       const auto sum
           = [](const double value) { return mpi::sum(value, world); };
@@ -257,7 +257,7 @@ namespace
       part.find_forces(fresh, resumed);
       for (unsigned int i = 0; i < part.nodes.n_owned(); ++i)
         for (unsigned int d = 0; d < 2; ++d)
-          EXPECT_EQ(part.force[i].v[d], gone_on[i].v[d]);
+          EXPECT_EQ(part.force[i][d], gone_on[i][d]);
     }
   };
 

@@ -46,7 +46,7 @@ namespace
     run->begin(stage_with({}), 0.4);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
-    std::vector<NodeVector<2>> velocity;
+    std::vector<dealii::Tensor<1, 2>> velocity;
     for (unsigned int b = 0; b < n * n; ++b)
       velocity.push_back({ { uniform(random) + drift, uniform(random) } });
     for (unsigned int i = 0; i < run->nodes->n_local(); ++i)

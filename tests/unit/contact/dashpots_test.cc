@@ -33,7 +33,7 @@ namespace
     MatchedJoints joints;
     std::unique_ptr<BlockContacts> contacts;
     State<2> state;
-    AlignedArray<NodeVector<2>> force, viscous;
+    AlignedArray<dealii::Tensor<1, 2>> force, viscous;
     const bool meets;
 
     /** @p may_meet: as contacts of separate blocks, else as joint. */
@@ -55,7 +55,7 @@ namespace
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         state.nodes.push_back(
             { { nodes->point(v)[0], nodes->point(v)[1] }, { 0., 0. } });
-      state.velocity.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
+      state.velocity.assign(nodes->n_local(), dealii::Tensor<1, 2>());
       for (JointState &point : state.get<JointHistory>().state)
         point = JointState::slipped;
     }
@@ -92,12 +92,12 @@ namespace
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         if (is_upper(v))
         {
-          state.nodes[v].u[0]    = x;
-          state.nodes[v].u[1]    = meets ? y - gap : y;
-          state.velocity[v].v[0] = vx;
-          state.velocity[v].v[1] = vy;
+          state.nodes[v].u[0]  = x;
+          state.nodes[v].u[1]  = meets ? y - gap : y;
+          state.velocity[v][0] = vx;
+          state.velocity[v][1] = vy;
         }
-      force.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
+      force.assign(nodes->n_local(), dealii::Tensor<1, 2>());
       viscous = force;
       StepContext step{};
       step.dt                              = 1e-9;
@@ -109,12 +109,13 @@ namespace
     }
 
     /** Force on the upper block [N]. */
-    std::array<double, 2> on_upper(const AlignedArray<NodeVector<2>> &of) const
+    std::array<double, 2>
+    on_upper(const AlignedArray<dealii::Tensor<1, 2>> &of) const
     {
       std::array<double, 2> sum{}, lower{};
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         for (unsigned int d = 0; d < 2; ++d)
-          (is_upper(v) ? sum : lower)[d] += of[v].v[d];
+          (is_upper(v) ? sum : lower)[d] += of[v][d];
       EXPECT_NEAR(sum[0] + lower[0], 0., 1e-6 * (1. + std::abs(sum[0])));
       EXPECT_NEAR(sum[1] + lower[1], 0., 1e-6 * (1. + std::abs(sum[1])));
       return sum;

@@ -45,10 +45,11 @@ namespace
   }
 
   /** What acts on each node at the positions of the state, without motion. */
-  AlignedArray<NodeVector<2>> forces(const Model<2> &model, State<2> state)
+  AlignedArray<dealii::Tensor<1, 2>> forces(const Model<2> &model,
+                                            State<2> state)
   {
-    AlignedArray<NodeVector<2>> result(state.nodes.size(),
-                                       NodeVector<2>{ { 0., 0. } });
+    AlignedArray<dealii::Tensor<1, 2>> result(state.nodes.size(),
+                                              dealii::Tensor<1, 2>());
     model.joints().add_forces(state.nodes.data(), state.get<JointHistory>(),
                               state.energy, result.data());
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
@@ -57,11 +58,11 @@ namespace
     return result;
   }
 
-  double largest(const AlignedArray<NodeVector<2>> &force)
+  double largest(const AlignedArray<dealii::Tensor<1, 2>> &force)
   {
     double result = 0.;
-    for (const NodeVector<2> &f : force)
-      result = std::max({ result, std::abs(f.v[0]), std::abs(f.v[1]) });
+    for (const dealii::Tensor<1, 2> &f : force)
+      result = std::max({ result, std::abs(f[0]), std::abs(f[1]) });
     return result;
   }
 
@@ -74,7 +75,7 @@ namespace
     run.throw_at_random(1e-5);
     const NodeRange upper = block_nodes(run.model, 1);
     for (std::size_t i = upper.begin; i < upper.end; ++i)
-      run.state.velocity[i] = NodeVector<2>{ { 0., 0. } };
+      run.state.velocity[i] = dealii::Tensor<1, 2>();
     account_for_initial_motion(run.model, run.state);
     double result = 0.;
     for (unsigned int i = 0; i < stages.size(); ++i)
@@ -126,18 +127,18 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
                                                           { { 9., 1. } } };
       for (const auto &[time, share] : shares)
       {
-        AlignedArray<NodeVector<2>> held(before.size(),
-                                         NodeVector<2>{ { 0., 0. } });
+        AlignedArray<dealii::Tensor<1, 2>> held(before.size(),
+                                                dealii::Tensor<1, 2>());
         const Release<2> release(run.state, stage, 4.);
         release.add_loads({ time, time }, held.data());
         const double left = 1. - 0.25 * share;
         for (std::size_t i = lower.begin; i < lower.end; ++i)
           for (unsigned int d = 0; d < 2; ++d)
-            EXPECT_NEAR(held[i].v[d], left * (before[i].v[d] - after[i].v[d]),
+            EXPECT_NEAR(held[i][d], left * (before[i][d] - after[i][d]),
                         1e-9 * largest(before));
         // nothing acts on what is gone
         for (std::size_t i = lower.end; i < held.size(); ++i)
-          EXPECT_EQ(std::abs(held[i].v[0]) + std::abs(held[i].v[1]), 0.);
+          EXPECT_EQ(std::abs(held[i][0]) + std::abs(held[i][1]), 0.);
       }
     }
     construction.begin_stage(1, run.solver, run.state);
@@ -165,7 +166,7 @@ TEST(Construction, PlacedBlocksAreFreeOfStress)
     for (unsigned int d = 0; d < 2; ++d)
     {
       EXPECT_EQ(run.state.nodes[i].u[d], 0.);
-      EXPECT_NEAR(force[i].v[d], 0., 1e-9 * largest(force));
+      EXPECT_NEAR(force[i][d], 0., 1e-9 * largest(force));
     }
 }
 
@@ -209,7 +210,7 @@ TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
     const auto after = forces(run.model, run.state);
     for (std::size_t i = 0; i < before.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        EXPECT_NEAR(after[i].v[d], before[i].v[d], 1e-10 * largest(before));
+        EXPECT_NEAR(after[i][d], before[i][d], 1e-10 * largest(before));
 
     // the new stiffness from there on
     const double stiff = run.model.blocks()

@@ -237,7 +237,7 @@ TEST(ExplicitSolver, PrescribedVelocity)
     EXPECT_NEAR(run.state.nodes[v].u[0], 0.02 * time, 1e-14 * time);
     // The midpoint rule is exact for a velocity linear in time.
     EXPECT_NEAR(run.state.nodes[v].u[1], -0.005 * time * time, 1e-14 * time);
-    EXPECT_EQ(run.state.velocity[v].v[0], 0.02);
+    EXPECT_EQ(run.state.velocity[v][0], 0.02);
   }
   double moved = 0.;
   for (const unsigned int v : run.nodes_at_height(2.))
@@ -339,7 +339,7 @@ TEST(ExplicitSolver, PlatenUnderAForce)
   for (unsigned int n = 0; n < mesh.n_vertices(); ++n)
   {
     const double share = mesh.block_of_vertex(n) == 1 ? 1. : 0.;
-    EXPECT_NEAR(run.state.velocity[n].v[0], share * v, 1e-14 * v);
+    EXPECT_NEAR(run.state.velocity[n][0], share * v, 1e-14 * v);
     EXPECT_NEAR(run.state.nodes[n].u[0], share * v * run.dt(), 1e-15);
   }
   EXPECT_DOUBLE_EQ(run.solver.resultant("beam")[0], force);
@@ -371,9 +371,9 @@ TEST(ExplicitSolver, PlatenUnderAMoment)
   EXPECT_NEAR(run.state.get<PlatenState>("beam").velocity[2], omega,
               1e-12 * omega);
   const unsigned int corner = run.node(3., 2.);
-  EXPECT_NEAR(run.state.velocity[corner].v[0], -omega * (2. - centre[1] / mass),
+  EXPECT_NEAR(run.state.velocity[corner][0], -omega * (2. - centre[1] / mass),
               1e-6 * omega);
-  EXPECT_NEAR(run.state.velocity[corner].v[1], omega * (3. - centre[0] / mass),
+  EXPECT_NEAR(run.state.velocity[corner][1], omega * (3. - centre[0] / mass),
               1e-6 * omega);
 }
 
@@ -485,9 +485,9 @@ TEST(ExplicitSolver, TractionActsOnTributaryAreas)
     const double top   = p[1] == 2. ? 0.5 * (at_side ? 0.5 : 1.) : 0.;
     const double side  = at_side ? 0.5 * 0.5 : 0.;
     const double rate  = 0.5 * run.dt() / run.model.mass()[n];
-    EXPECT_NEAR(run.state.velocity[n].v[0], (2e3 * top + 7e3 * side) * rate,
+    EXPECT_NEAR(run.state.velocity[n][0], (2e3 * top + 7e3 * side) * rate,
                 1e-12 * 7e3 * rate);
-    EXPECT_NEAR(run.state.velocity[n].v[1], -5e3 * top * rate,
+    EXPECT_NEAR(run.state.velocity[n][1], -5e3 * top * rate,
                 1e-12 * 7e3 * rate);
   }
 }
@@ -567,8 +567,8 @@ TEST(ExplicitSolver, ViscousBoundaryAbsorbs)
       { viscous("base", "bottom"), motion("rollers", "sides", "0", "") });
   run.begin(stage_with({ "base", "rollers" }));
   const double v = -1e-9;
-  for (NodeVector<2> &node : run.state.velocity)
-    node.v[1] = v;
+  for (dealii::Tensor<1, 2> &node : run.state.velocity)
+    node[1] = v;
   const double M       = 1e10 * 0.8 / (1.2 * 0.6);
   const double c       = std::sqrt(M / 2500.);
   const double initial = 0.5 * 2. * mass_of_block(1, 30) * v * v;
@@ -613,7 +613,7 @@ TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)
   a.throw_at_random(1e-9);
   for (unsigned int n = 0; n < flat.n_vertices(); ++n)
   {
-    const double *v     = a.state.velocity[n].v;
+    const dealii::Tensor<1, 2> &v = a.state.velocity[n];
     b.state.velocity[n] = { { c * v[0] - s * v[1], s * v[0] + c * v[1] } };
   }
   for (TestRun *run : { &a, &b })
@@ -654,11 +654,11 @@ TEST(ExplicitSolver, ViscousBoundaryTakesOverReactions)
       loads.push_back("push");
     run.begin(stage_with(loads), 0.5, &settle);
     run.step(1);
-    const double first = run.state.velocity[run.node(1., 0.)].v[1];
+    const double first = run.state.velocity[run.node(1., 0.)][1];
     run.step(200);
     double fastest = 0.;
-    for (const NodeVector<2> &v : run.state.velocity)
-      fastest = std::max(fastest, std::abs(v.v[1]));
+    for (const dealii::Tensor<1, 2> &v : run.state.velocity)
+      fastest = std::max(fastest, std::abs(v[1]));
     // Of half the traction: the other half goes into the dashpots.
     const double speed = 1e3 / (2. * 2500. * std::sqrt(1e10 / 2500.));
     if (pushed)
@@ -683,7 +683,7 @@ TEST(ExplicitSolver, IncidentWaveDoublesAtTheFreeSurface)
   // Along the boundary with the block on its left: to the right.
   for (const double y : { 0., 40. })
     for (const unsigned int n : run.nodes_at_height(y))
-      EXPECT_NEAR(run.state.velocity[n].v[0], 2e-9, 0.05e-9);
+      EXPECT_NEAR(run.state.velocity[n][0], 2e-9, 0.05e-9);
   run.solver.step(run.state, { true, false });
   // (The column began to move at once, from -dt/2 on, at the base alone.)
   EXPECT_LT(std::abs(run.solver.energies().residual()),
@@ -903,7 +903,7 @@ TEST(ExplicitSolver, MassScalingRaisesTheCriticalStep)
 
   // Gravity pulls on the true mass only: the fall is nine times slower.
   run.step(1);
-  EXPECT_NEAR(run.state.velocity[0].v[1], -10. / 9. * 0.5 * run.dt(), 1e-14);
+  EXPECT_NEAR(run.state.velocity[0][1], -10. / 9. * 0.5 * run.dt(), 1e-14);
 
   // A step that is stable anyway takes no mass away.
   stage.scaled_time_step = 0.5 * own;
@@ -940,8 +940,8 @@ TEST(ExplicitSolver, MassScalingBehindAStiffJoint)
   run.begin(stage, 0.99);
   run.throw_at_random(1e-6);
   run.step(2000);
-  for (const NodeVector<2> &v : run.state.velocity)
-    EXPECT_LT(std::abs(v.v[0]) + std::abs(v.v[1]), 1e-4);
+  for (const dealii::Tensor<1, 2> &v : run.state.velocity)
+    EXPECT_LT(std::abs(v[0]) + std::abs(v[1]), 1e-4);
 }
 
 TEST(ExplicitSolver, StiffnessDampingLowersTheCriticalStep)
@@ -983,6 +983,6 @@ TEST(ExplicitSolver, ResumedStageGoesOnAsIfNothingHadHappened)
     for (unsigned int d = 0; d < 2; ++d)
     {
       EXPECT_EQ(rest.state.nodes[n].u[d], whole.state.nodes[n].u[d]);
-      EXPECT_EQ(rest.state.velocity[n].v[d], whole.state.velocity[n].v[d]);
+      EXPECT_EQ(rest.state.velocity[n][d], whole.state.velocity[n][d]);
     }
 }

@@ -79,8 +79,8 @@ namespace quoin
       nodes.push_back({ { p[0], p[1] },
                         { 1e-12 * std::sin(7. * p[0] + 3. * p[1]),
                           1e-12 * std::cos(5. * p[0] - 4. * p[1]) } });
-    AlignedArray<NodeVector<2>> force(nodes.size(),
-                                      NodeVector<2>{ { 0., 0. } });
+    AlignedArray<dealii::Tensor<1, 2>> force(nodes.size(),
+                                             dealii::Tensor<1, 2>());
     PlasticHistory none;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       blocks.add_forces(tile, nodes.data(), none, force.data());
@@ -96,8 +96,8 @@ namespace quoin
     const dealii::FEValuesExtractors::Vector displacement(0);
     const double mu     = 3e10 / 2.6;
     const double lambda = 3e10 * 0.3 / (1.3 * 0.4);
-    std::vector<NodeVector<2>> expected(nodes.size(),
-                                        NodeVector<2>{ { 0., 0. } });
+    std::vector<dealii::Tensor<1, 2>> expected(nodes.size(),
+                                               dealii::Tensor<1, 2>());
     double largest = 0.;
     for (const auto &cell : dofs.active_cell_iterators())
     {
@@ -115,15 +115,15 @@ namespace quoin
       for (unsigned int i = 0; i < element.dofs_per_cell; ++i)
       {
         const auto [component, k] = element.system_to_component_index(i);
-        expected[cell->vertex_index(k)].v[component]
+        expected[cell->vertex_index(k)][component]
             -= 0.5 * values.JxW(0)
                * (stress * values[displacement].symmetric_gradient(i, 0));
       }
     }
-    for (const NodeVector<2> &f : expected)
-      largest = std::max({ largest, std::abs(f.v[0]), std::abs(f.v[1]) });
+    for (const dealii::Tensor<1, 2> &f : expected)
+      largest = std::max({ largest, std::abs(f[0]), std::abs(f[1]) });
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        EXPECT_NEAR(force[i].v[d], expected[i].v[d], 1e-9 * largest);
+        EXPECT_NEAR(force[i][d], expected[i][d], 1e-9 * largest);
   }
 } // namespace quoin

@@ -89,14 +89,14 @@ TEST(FreeField, UprightWavesPassAsIfTheModelWereEndless)
   for (unsigned int i = 0; i < steps; ++i)
   {
     run.step(1);
-    const auto top   = run.nodes_at_height(20.);
-    const auto *mean = run.state.velocity[run.node(3., 20.)].v;
+    const auto top                   = run.nodes_at_height(20.);
+    const dealii::Tensor<1, 2> &mean = run.state.velocity[run.node(3., 20.)];
     for (const unsigned int n : top)
       for (unsigned int d = 0; d < 2; ++d)
       {
         peak = std::max(peak, std::abs(mean[d]));
         scatter
-            = std::max(scatter, std::abs(run.state.velocity[n].v[d] - mean[d]));
+            = std::max(scatter, std::abs(run.state.velocity[n][d] - mean[d]));
       }
   }
   EXPECT_NEAR(peak, 4e-9, 0.1e-9);
@@ -245,12 +245,12 @@ TEST(ViscousBoundary, OfAnotherMaterialBeyond)
   base.far_material   = "hard";
   TestRun run(mesh, parameters, { base, motion("rollers", "sides", "0", "") });
   run.begin(stage_with({ "base", "rollers" }));
-  for (NodeVector<2> &node : run.state.velocity)
-    node.v[1] = -1e-9;
+  for (dealii::Tensor<1, 2> &node : run.state.velocity)
+    node[1] = -1e-9;
   const double c = std::sqrt(1e10 * 0.8 / (1.2 * 0.6) / 2500.);
   run.step(static_cast<unsigned int>(40. / c / run.dt()));
   for (const unsigned int n : run.nodes_at_height(0.))
-    EXPECT_NEAR(run.state.velocity[n].v[1], -0.25e-9, 0.01e-9);
+    EXPECT_NEAR(run.state.velocity[n][1], -0.25e-9, 0.01e-9);
 
   for (const std::string name : { "harder", "stiff" })
   {
@@ -279,10 +279,10 @@ TEST(InitialMotion, BringsItsEnergyAndIsOfSecondOrder)
     TestRun run(mesh, two_blocks(), { motion("base", "bottom", "0", "0") });
     for (unsigned int n = 0; n < run.state.nodes.size(); ++n)
     {
-      const double y             = run.state.nodes[n].X[1];
-      const double jump          = mesh.block_of_vertex(n);
-      run.state.nodes[n].u[0]    = 1e-12 * y * (1. + jump);
-      run.state.velocity[n].v[1] = 1e-9 * y;
+      const double y           = run.state.nodes[n].X[1];
+      const double jump        = mesh.block_of_vertex(n);
+      run.state.nodes[n].u[0]  = 1e-12 * y * (1. + jump);
+      run.state.velocity[n][1] = 1e-9 * y;
     }
     account_for_initial_motion(run.model, run.state);
     run.begin(stage_with({ "base" }));

@@ -64,9 +64,9 @@ TEST(InitialBlockMotion, IsThatOfARigidBodyWithItsEnergy)
     {
       const bool moves = run.nodes->block_of_node(i) == 1;
       const auto arm   = run.nodes->point(i) - inertia.centroid;
-      EXPECT_NEAR(run.state.velocity[i].v[0], moves ? 0.3 - 2. * arm[1] : 0.,
+      EXPECT_NEAR(run.state.velocity[i][0], moves ? 0.3 - 2. * arm[1] : 0.,
                   1e-13);
-      EXPECT_NEAR(run.state.velocity[i].v[1], moves ? -0.2 + 2. * arm[0] : 0.,
+      EXPECT_NEAR(run.state.velocity[i][1], moves ? -0.2 + 2. * arm[0] : 0.,
                   1e-13);
     }
     const double energy

@@ -134,8 +134,8 @@ namespace
         state.nodes[i].u[0] = q[3 * b] - q[3 * b + 2] * y;
         state.nodes[i].u[1] = q[3 * b + 1] + q[3 * b + 2] * x;
       }
-    AlignedArray<NodeVector<2>> force(state.nodes.size(),
-                                      NodeVector<2>{ { 0., 0. } });
+    AlignedArray<dealii::Tensor<1, 2>> force(state.nodes.size(),
+                                             dealii::Tensor<1, 2>());
     EnergyAccounts energy;
     model.joints().add_forces(state.nodes.data(), state.get<JointHistory>(),
                               energy, force.data());
@@ -143,7 +143,7 @@ namespace
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
       for (unsigned int i = rigid.block(b).begin; i < rigid.block(b).end; ++i)
       {
-        const double *f = force[i].v;
+        const dealii::Tensor<1, 2> &f = force[i];
         result[3 * b] += f[0];
         result[3 * b + 1] += f[1];
         result[3 * b + 2]
@@ -491,8 +491,8 @@ TEST(RigidBlocks, PlatenTakesOverAndReleases)
     for (unsigned int d = 0; d < 2; ++d)
     {
       EXPECT_NEAR(run.state.nodes[i].u[d] - before.nodes[i].u[d],
-                  dt * run.state.velocity[i].v[d], 1e-5);
-      EXPECT_NEAR(run.state.velocity[i].v[d], before.velocity[i].v[d], 1.);
+                  dt * run.state.velocity[i][d], 1e-5);
+      EXPECT_NEAR(run.state.velocity[i][d], before.velocity[i][d], 1.);
     }
   run.step(499);
   check(1.5);

@@ -67,7 +67,7 @@ namespace
         for (unsigned int d = 0; d < 3; ++d)
           state.nodes[i].X[d] = nodes.point(i)[d];
       }
-      state.velocity.assign(nodes.n_local(), NodeVector<3>{});
+      state.velocity.assign(nodes.n_local(), dealii::Tensor<1, 3>());
 
       std::vector<NodeStiffness<3>> bound(nodes.n_local(), NodeStiffness<3>{});
       forces.add_stiffness_bound(state, {}, bound);
@@ -160,8 +160,8 @@ namespace
         {
           // Positions where velocities are: half a step ago.
           x[d] = state.nodes[i].X[d] + state.nodes[i].u[d]
-                 - 0.5 * dt * state.velocity[i].v[d];
-          v[d] = state.velocity[i].v[d];
+                 - 0.5 * dt * state.velocity[i][d];
+          v[d] = state.velocity[i][d];
         }
         result += mass[i] * of(x, v);
       }
@@ -178,8 +178,8 @@ namespace
                      v = velocity(nodes.point(i));
         for (unsigned int d = 0; d < 3; ++d)
         {
-          state.nodes[i].u[d]    = u[d];
-          state.velocity[i].v[d] = v[d];
+          state.nodes[i].u[d]  = u[d];
+          state.velocity[i][d] = v[d];
         }
       }
     }

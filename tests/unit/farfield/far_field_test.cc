@@ -77,7 +77,7 @@ namespace
       return result;
     }
 
-    void move(const NodeVector<2> &velocity)
+    void move(const dealii::Tensor<1, 2> &velocity)
     {
       std::vector<unsigned int> positions;
       captured.clear();
@@ -107,8 +107,8 @@ TEST(FarField, ResistsMotionByTheImpedanceOfWhatIsBeyond)
   for (const unsigned int d : { 0U, 1U })
   {
     HeavyBlock block;
-    NodeVector<2> velocity{ { 0., 0. } };
-    velocity.v[d]       = 0.1;
+    dealii::Tensor<1, 2> velocity;
+    velocity[d]         = 0.1;
     const double c      = d == 1 ? medium.c1 : medium.c2;
     const double wanted = -medium.density * c * 0.1 * length * thickness;
     for (unsigned int i = 0; i < 3; ++i)

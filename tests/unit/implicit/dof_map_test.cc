@@ -166,8 +166,8 @@ TEST(DofMap, ProjectionIsTheTransposeOfTheMotion)
   run.dof_map->update_constraints(configuration, 0.);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1., 1.);
-  AlignedArray<NodeVector<2>> force(run.mesh.n_vertices());
-  for (NodeVector<2> &f : force)
+  AlignedArray<dealii::Tensor<1, 2>> force(run.mesh.n_vertices());
+  for (dealii::Tensor<1, 2> &f : force)
     f = { { uniform(random), uniform(random) } };
   const Values others{ { 0.3, -0.8, 0.5 }, { -0.2, 0.4, 0.7 } };
   auto sums = run.vector();
@@ -186,7 +186,7 @@ TEST(DofMap, ProjectionIsTheTransposeOfTheMotion)
       run.dof_map->move(direction, share, 0., moved);
       for (unsigned int v = 0; v < force.size(); ++v)
         for (unsigned int d = 0; d < 2; ++d)
-          work += force[v].v[d] * moved.nodes[v].u[d] / (2. * share);
+          work += force[v][d] * moved.nodes[v].u[d] / (2. * share);
     }
     EXPECT_NEAR(sums * direction, work, 1e-8) << mode;
   }
@@ -225,7 +225,8 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
           later.nodes[v].u[d] - configuration.nodes[v].u[d], 1e-5 * dt);
 
   // Only what is not given has a right-hand side.
-  AlignedArray<NodeVector<2>> force(run.mesh.n_vertices(), { { 1., 1. } });
+  AlignedArray<dealii::Tensor<1, 2>> force(run.mesh.n_vertices(),
+                                           { { 1., 1. } });
   auto sums = run.vector();
   run.dof_map->add_forces(force, sums);
   add_body_forces(run.dof_map->bodies(), Values(2, { { 1., 1., 1. } }), sums);

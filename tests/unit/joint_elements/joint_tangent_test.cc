@@ -323,12 +323,12 @@ TEST(JointTangent, ForcesAreThoseOfTheExplicitSolver)
       JointHistory end;
       EnergyAccounts lost, expected;
       const auto result = joint.linearise(joint.nodes, &end, &lost);
-      AlignedArray<NodeVector<2>> force(joint.nodes.size(),
-                                        NodeVector<2>{ { 0., 0. } });
+      AlignedArray<dealii::Tensor<1, 2>> force(joint.nodes.size(),
+                                               dealii::Tensor<1, 2>());
       joint.joints.add_forces(joint.nodes.data(), joint.history, expected,
                               force.data());
       for (unsigned int j = 0; j < 8; ++j)
-        EXPECT_NEAR(result.force[j], force[result.nodes[j / 2]].v[j % 2],
+        EXPECT_NEAR(result.force[j], force[result.nodes[j / 2]][j % 2],
                     1e-9 * largest(result.force) + 1e-12);
       EXPECT_NEAR(lost.friction, expected.friction, 1e-12);
       EXPECT_NEAR(lost.fracture, expected.fracture, 1e-12);

@@ -26,7 +26,7 @@ namespace
     TestNodes nodes;
     MatchedJoints joints;
     State<2> state;
-    AlignedArray<NodeVector<2>> force;
+    AlignedArray<dealii::Tensor<1, 2>> force;
     EnergyAccounts energy;
 
     explicit Stack(const unsigned int nx = 1, const double angle = 0.,
@@ -72,7 +72,7 @@ namespace
 
     void find_forces()
     {
-      force.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
+      force.assign(nodes->n_local(), dealii::Tensor<1, 2>());
       joints.add_forces(state.nodes.data(), state.get<JointHistory>(), energy,
                         force.data());
     }
@@ -82,7 +82,7 @@ namespace
       std::array<double, 2> sum{};
       for (unsigned int v = first_node(block); v < end_node(block); ++v)
         for (unsigned int d = 0; d < 2; ++d)
-          sum[d] += force[v].v[d];
+          sum[d] += force[v][d];
       return sum;
     }
 
@@ -110,7 +110,7 @@ namespace
   void add_forces_by_point(const Law &law, const MatchedJoints &joints,
                            const std::vector<NodeRecord<2>> &nodes,
                            JointHistory &history, EnergyAccounts &energy,
-                           AlignedArray<NodeVector<2>> &force)
+                           AlignedArray<dealii::Tensor<1, 2>> &force)
   {
     const auto place = [&](const unsigned int v, const unsigned int d)
     { return nodes[v].X[d] + nodes[v].u[d]; };
@@ -146,12 +146,11 @@ namespace
         {
           const double pull
               = sigma * normal[d] + tau * (d == 0 ? normal[1] : -normal[0]);
-          force[a[k]].v[d] += pull;
-          force[b[k]].v[d] -= pull;
+          force[a[k]][d] += pull;
+          force[b[k]][d] -= pull;
           for (const unsigned int end : { 0, 1 })
             for (const auto &side : { a, b })
-              force[side[end]].v[d]
-                  += (end == 0 ? -1. : 1.) * couple * normal[d];
+              force[side[end]][d] += (end == 0 ? -1. : 1.) * couple * normal[d];
         }
       }
     }
@@ -183,13 +182,14 @@ namespace
         stack.state.get<JointHistory>().handed_over[n - 2]
             = history.handed_over[n - 2] = 1;
       stack.find_forces();
-      AlignedArray<NodeVector<2>> force(stack.force.size(), NodeVector<2>{});
+      AlignedArray<dealii::Tensor<1, 2>> force(stack.force.size(),
+                                               dealii::Tensor<1, 2>());
       add_forces_by_point(law, stack.joints, nodes, history, energy, force);
 
       const double unit = reach * kn * 0.3;
       for (unsigned int v = 0; v < force.size(); ++v)
         for (unsigned int d = 0; d < 2; ++d)
-          EXPECT_NEAR(stack.force[v].v[d], force[v].v[d], 1e-14 * unit);
+          EXPECT_NEAR(stack.force[v][d], force[v][d], 1e-14 * unit);
       const JointHistory &now = stack.state.get<JointHistory>();
       for (unsigned int p = 0; p < 2 * n; ++p)
       {
@@ -268,13 +268,14 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   // of 3, which the trapezoidal rule on the same nodes misses by 1/72.
   const double turn = 1e-9;
   const double c = std::cos(50. * degree), s = std::sin(50. * degree);
-  std::vector<NodeVector<2>> motion(stack.nodes->n_local(), { { 0., 0. } });
+  std::vector<dealii::Tensor<1, 2>> motion(stack.nodes->n_local(),
+                                           { { 0., 0. } });
   for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
   {
     const auto arm = stack.nodes->point(v) - dealii::Point<2>(-s, c);
     motion[v]      = { { -turn * arm[1], turn * arm[0] } };
     for (unsigned int d = 0; d < 2; ++d)
-      stack.state.nodes[v].u[d] = motion[v].v[d];
+      stack.state.nodes[v].u[d] = motion[v][d];
   }
   stack.find_forces();
   double force = 0., moment = 0.;
@@ -282,7 +283,7 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   {
     const double along
         = c * stack.nodes->point(v)[0] + s * stack.nodes->point(v)[1];
-    const double normal = -s * stack.force[v].v[0] + c * stack.force[v].v[1];
+    const double normal = -s * stack.force[v][0] + c * stack.force[v][1];
     force += normal;
     moment += along * normal;
   }
@@ -294,7 +295,8 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
 
   // At the rate of this motion dampers of the joint's stiffness give the same
   // force; that of each node has its own area.
-  std::vector<NodeVector<2>> viscous(stack.nodes->n_local(), { { 0., 0. } });
+  std::vector<dealii::Tensor<1, 2>> viscous(stack.nodes->n_local(),
+                                            { { 0., 0. } });
   stack.joints.add_viscous_forces(stack.state.nodes.data(),
                                   stack.state.get<JointHistory>(),
                                   motion.data(), 1., viscous.data());
@@ -305,7 +307,7 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   for (unsigned int v = 0; v < stack.end_node(0); ++v)
   {
     for (unsigned int d = 0; d < 2; ++d)
-      EXPECT_NEAR(viscous[v].v[d], stack.force[v].v[d], 1e-6 * unit);
+      EXPECT_NEAR(viscous[v][d], stack.force[v][d], 1e-6 * unit);
     const double along
         = c * stack.nodes->point(v)[0] + s * stack.nodes->point(v)[1];
     const bool on_joint = std::abs(c * stack.nodes->point(v)[1]
@@ -351,8 +353,8 @@ TEST(MatchedJoints, UniformOpeningAndSlip)
     {
       const double share = (x == 1. ? 0.5 : 0.25)
                            * (stack.nodes->block_of_node(v) == 0 ? 1. : -1.);
-      EXPECT_NEAR(stack.force[v].v[0], share * area * ks * slip, 1e-6);
-      EXPECT_NEAR(stack.force[v].v[1],
+      EXPECT_NEAR(stack.force[v][0], share * area * ks * slip, 1e-6);
+      EXPECT_NEAR(stack.force[v][1],
                   share * area * kn * opening + 0.5 * couple * (1. - x), 1e-6);
     }
   EXPECT_NEAR(stack.joints.stored_energy(stack.state),
@@ -368,8 +370,8 @@ TEST(MatchedJoints, NoForceOnNodesOffTheJoint)
     for (const double x : { 0., 1. })
       for (const unsigned int v : nodes_at(stack.nodes, x, y))
       {
-        EXPECT_EQ(stack.force[v].v[0], 0.);
-        EXPECT_EQ(stack.force[v].v[1], 0.);
+        EXPECT_EQ(stack.force[v][0], 0.);
+        EXPECT_EQ(stack.force[v][1], 0.);
       }
 }
 
@@ -528,11 +530,11 @@ TEST(MatchedJoints, ViscousForcesOfRockJointsByTheStiffnessOfTheMoment)
   const double s = 5e6, rate = 1e-3, beta = 1e-4;
   stack.move_upper(0., -law.closure.closure(s));
   stack.find_forces();
-  AlignedArray<NodeVector<2>> velocity(stack.nodes->n_local(),
-                                       NodeVector<2>{ { 0., 0. } });
+  AlignedArray<dealii::Tensor<1, 2>> velocity(stack.nodes->n_local(),
+                                              dealii::Tensor<1, 2>());
   for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
-    velocity[v].v[1] = -rate;
-  stack.force.assign(stack.nodes->n_local(), NodeVector<2>{ { 0., 0. } });
+    velocity[v][1] = -rate;
+  stack.force.assign(stack.nodes->n_local(), dealii::Tensor<1, 2>());
   stack.joints.add_viscous_forces(stack.state.nodes.data(),
                                   stack.state.get<JointHistory>(),
                                   velocity.data(), beta, stack.force.data());
@@ -591,15 +593,15 @@ TEST(MatchedJoints, ViscousForcesOfStickingPoints)
   Stack stack(1, 0., frictional());
   stack.move_upper(0., -1e-4);
   stack.find_forces();
-  AlignedArray<NodeVector<2>> velocity(stack.nodes->n_local(),
-                                       NodeVector<2>{ { 0., 0. } });
+  AlignedArray<dealii::Tensor<1, 2>> velocity(stack.nodes->n_local(),
+                                              dealii::Tensor<1, 2>());
   for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
     velocity[v] = { { 0.3, -0.2 } };
 
   const double beta = 1e-4;
   const auto damp   = [&]()
   {
-    stack.force.assign(stack.nodes->n_local(), NodeVector<2>{ { 0., 0. } });
+    stack.force.assign(stack.nodes->n_local(), dealii::Tensor<1, 2>());
     stack.joints.add_viscous_forces(stack.state.nodes.data(),
                                     stack.state.get<JointHistory>(),
                                     velocity.data(), beta, stack.force.data());
@@ -625,15 +627,17 @@ TEST(MatchedJoints, ViscousForcesByRatesAsElasticOnesByDisplacements)
     Stack stack(n, 35. * degree);
     std::mt19937 random(n);
     std::uniform_real_distribution<double> uniform(-1., 1.);
-    AlignedArray<NodeVector<2>> velocity(stack.state.nodes.size());
+    AlignedArray<dealii::Tensor<1, 2>> velocity(stack.state.nodes.size());
     for (unsigned int v = 0; v < velocity.size(); ++v)
       for (unsigned int d = 0; d < 2; ++d)
       {
         stack.state.nodes[v].u[d] = 0.02 * uniform(random);
-        velocity[v].v[d]          = uniform(random);
+        velocity[v][d]            = uniform(random);
       }
-    AlignedArray<NodeVector<2>> viscous(velocity.size(), NodeVector<2>{});
-    AlignedArray<NodeVector<2>> elastic(velocity.size(), NodeVector<2>{});
+    AlignedArray<dealii::Tensor<1, 2>> viscous(velocity.size(),
+                                               dealii::Tensor<1, 2>());
+    AlignedArray<dealii::Tensor<1, 2>> elastic(velocity.size(),
+                                               dealii::Tensor<1, 2>());
     stack.joints.add_viscous_forces(stack.state.nodes.data(),
                                     stack.state.get<JointHistory>(),
                                     velocity.data(), 1., viscous.data());
@@ -641,7 +645,7 @@ TEST(MatchedJoints, ViscousForcesByRatesAsElasticOnesByDisplacements)
                                     elastic.data());
     for (unsigned int v = 0; v < velocity.size(); ++v)
       for (unsigned int d = 0; d < 2; ++d)
-        EXPECT_NEAR(viscous[v].v[d], elastic[v].v[d], 1e-14 * kn);
+        EXPECT_NEAR(viscous[v][d], elastic[v][d], 1e-14 * kn);
   }
 }
 
@@ -692,7 +696,7 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   initialise_joints(
       joints, { { { { { 2e5, 3e5, 1e5 } }, { { 2e5, 3e5, 1e5 } } } } }, state);
 
-  AlignedArray<NodeVector<2>> force(n, NodeVector<2>{ { 0., 0. } });
+  AlignedArray<dealii::Tensor<1, 2>> force(n, dealii::Tensor<1, 2>());
   EnergyAccounts energy;
   joints.add_forces(state.nodes.data(), state.get<JointHistory>(), energy,
                     force.data());
@@ -701,25 +705,25 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   EXPECT_EQ(gaps[tip][1], 0.);
   // The tip has no traction, only its share of the couple that balances the
   // tractions at the other end, 5e4 N on sides 1e-4 m apart.
-  const auto &at_tip = force[segment.lower[tip]].v;
+  const dealii::Tensor<1, 2> &at_tip = force[segment.lower[tip]];
   EXPECT_LT(std::hypot(at_tip[0], at_tip[1]), 10.);
   for (unsigned int d = 0; d < 2; ++d)
   {
     double sum = 0.;
-    for (const NodeVector<2> &f : force)
-      sum += f.v[d];
+    for (const dealii::Tensor<1, 2> &f : force)
+      sum += f[d];
     EXPECT_NEAR(sum, 0., 1e-9);
   }
   double moment = 0.;
   for (unsigned int v = 0; v < n; ++v)
   {
     const NodeRecord<2> &node = state.nodes[v];
-    moment += (node.X[0] + node.u[0]) * force[v].v[1]
-              - (node.X[1] + node.u[1]) * force[v].v[0];
+    moment += (node.X[0] + node.u[0]) * force[v][1]
+              - (node.X[1] + node.u[1]) * force[v][0];
   }
   EXPECT_NEAR(moment, 0., 1e-9);
   EXPECT_NEAR(gaps[1 - tip][0], 1e-4, 1e-8);
-  EXPECT_NEAR(force[segment.lower[1 - tip]].v[1],
+  EXPECT_NEAR(force[segment.lower[1 - tip]][1],
               0.5 * thickness * (3e5 + kn * 1e-4), 1e2);
 
   std::vector<std::array<double, 3>> bound(n, { { 0., 0., 0. } });
@@ -756,7 +760,7 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
     for (unsigned int v = mesh.block_first_vertex[b];
          v < mesh.block_first_vertex[b + 1]; ++v)
       state.nodes[v].u[0] = b * 1e-3;
-  AlignedArray<NodeVector<2>> force(n, NodeVector<2>{ { 0., 0. } });
+  AlignedArray<dealii::Tensor<1, 2>> force(n, dealii::Tensor<1, 2>());
   EnergyAccounts energy;
   joints.add_forces(state.nodes.data(), state.get<JointHistory>(), energy,
                     force.data());
@@ -766,7 +770,7 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
     double sum = 0.;
     for (unsigned int v = mesh.block_first_vertex[b];
          v < mesh.block_first_vertex[b + 1]; ++v)
-      sum += force[v].v[0];
+      sum += force[v][0];
     EXPECT_NEAR(sum, expected[b], 1e-3);
   }
 }

@@ -120,7 +120,7 @@ namespace
     NodeMap<3> nodes;
     SpaceJoints joints;
     State<3> state;
-    AlignedArray<NodeVector<3>> force;
+    AlignedArray<dealii::Tensor<1, 3>> force;
     EnergyAccounts energy;
 
     explicit Stack(const JointLaw &law)
@@ -145,7 +145,7 @@ namespace
 
     void update()
     {
-      force.assign(state.nodes.size(), NodeVector<3>{});
+      force.assign(state.nodes.size(), dealii::Tensor<1, 3>());
       joints.add_forces(state.nodes.data(), history(), energy, force.data());
     }
 
@@ -220,7 +220,7 @@ TEST(SpaceJoints, TractionOfUniformOpeningAndSlip)
   for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
     if (stack.is_high(i))
       for (unsigned int d = 0; d < 3; ++d)
-        on_high[d] += stack.force[i].v[d];
+        on_high[d] += stack.force[i][d];
   const SpaceJointFace &face = stack.joints.faces()[0];
   const Vector n             = joint_frame(face, stack.state.nodes.data()).n;
   const Vector traction      = ks * jump + (kn - ks) * (jump * n) * n;
@@ -255,8 +255,8 @@ TEST(SpaceJoints, ForceIsMinusTheDerivativeOfTheEnergy)
         energy[side] = stack.joints.stored_energy(stack.state);
       }
       stack.state.nodes[i].u[d] += h;
-      largest = std::max(largest, std::abs(force[i].v[d]));
-      EXPECT_NEAR(force[i].v[d], -(energy[0] - energy[1]) / (2. * h),
+      largest = std::max(largest, std::abs(force[i][d]));
+      EXPECT_NEAR(force[i][d], -(energy[0] - energy[1]) / (2. * h),
                   1e-7 * kn * 0.05);
     }
   EXPECT_GT(largest, 1e-3 * kn * 0.05);
@@ -273,7 +273,7 @@ TEST(SpaceJoints, ForcesHaveNoResultantAndNoMoment)
     double size = 0.;
     for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
     {
-      const auto &v = stack.force[i].v;
+      const dealii::Tensor<1, 2> &v = stack.force[i];
       const Vector f({ v[0], v[1], v[2] });
       resultant += f;
       moment += cross_product_3d(stack.position(i), f);
@@ -353,7 +353,7 @@ namespace
         for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
           for (unsigned int d = 0; d < 3; ++d)
           {
-            const double by = -0.5 * (before[i].v[d] + stack.force[i].v[d])
+            const double by = -0.5 * (before[i][d] + stack.force[i][d])
                               * (stack.position(i)[d] - from[i][d]);
             work += by;
             turnover += std::abs(by);
@@ -390,15 +390,16 @@ TEST(SpaceJoints, RateForcesAreTheDerivativeOfForces)
 {
   Stack stack(elastic());
   // Free of traction but for the small motion, by which forces are linear.
-  AlignedArray<NodeVector<3>> velocity(stack.nodes.n_local(), NodeVector<3>{});
+  AlignedArray<dealii::Tensor<1, 3>> velocity(stack.nodes.n_local(),
+                                              dealii::Tensor<1, 3>());
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform(-1., 1.);
   for (auto &node : velocity)
     for (double &v : node.v)
       v = uniform(random);
-  AlignedArray<NodeVector<3>> elastic_force(stack.nodes.n_local(),
-                                            NodeVector<3>{}),
-      viscous(stack.nodes.n_local(), NodeVector<3>{});
+  AlignedArray<dealii::Tensor<1, 3>> elastic_force(stack.nodes.n_local(),
+                                                   dealii::Tensor<1, 3>()),
+      viscous(stack.nodes.n_local(), dealii::Tensor<1, 3>());
   stack.joints.add_elastic_forces(stack.state.nodes.data(), velocity.data(),
                                   elastic_force.data());
   constexpr double beta = 1e-4;
@@ -407,13 +408,13 @@ TEST(SpaceJoints, RateForcesAreTheDerivativeOfForces)
   constexpr double h = 1e-7;
   for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
     for (unsigned int d = 0; d < 3; ++d)
-      stack.state.nodes[i].u[d] = h * velocity[i].v[d];
+      stack.state.nodes[i].u[d] = h * velocity[i][d];
   stack.update();
   for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
     for (unsigned int d = 0; d < 3; ++d)
     {
-      EXPECT_NEAR(elastic_force[i].v[d], stack.force[i].v[d] / h, 1e-5 * kn);
-      EXPECT_NEAR(viscous[i].v[d], beta * elastic_force[i].v[d], 1e-9 * kn);
+      EXPECT_NEAR(elastic_force[i][d], stack.force[i][d] / h, 1e-5 * kn);
+      EXPECT_NEAR(viscous[i][d], beta * elastic_force[i][d], 1e-9 * kn);
     }
 }
 
@@ -422,8 +423,9 @@ TEST(SpaceJoints, ViscousForcesTakeEnergyAndNoMomentum)
   Stack stack(elastic());
   stack.shake(0.05);
   stack.update();
-  AlignedArray<NodeVector<3>> velocity(stack.nodes.n_local(), NodeVector<3>{}),
-      viscous(stack.nodes.n_local(), NodeVector<3>{});
+  AlignedArray<dealii::Tensor<1, 3>> velocity(stack.nodes.n_local(),
+                                              dealii::Tensor<1, 3>()),
+      viscous(stack.nodes.n_local(), dealii::Tensor<1, 3>());
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform(-1., 1.);
   for (auto &node : velocity)
@@ -435,10 +437,10 @@ TEST(SpaceJoints, ViscousForcesTakeEnergyAndNoMomentum)
   Vector moment;
   for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
   {
-    const auto &f = viscous[i].v;
+    const dealii::Tensor<1, 2> &f = viscous[i];
     const Vector force({ f[0], f[1], f[2] });
     for (unsigned int d = 0; d < 3; ++d)
-      power += f[d] * velocity[i].v[d];
+      power += f[d] * velocity[i][d];
     moment += cross_product_3d(stack.position(i), force);
     size += force.norm();
   }
@@ -446,13 +448,13 @@ TEST(SpaceJoints, ViscousForcesTakeEnergyAndNoMomentum)
   EXPECT_LE(moment.norm(), 1e-13 * size);
 
   // None of a rigid rotation, in which no gap changes.
-  viscous.assign(viscous.size(), NodeVector<3>{});
+  viscous.assign(viscous.size(), dealii::Tensor<1, 3>());
   const Vector spin({ 0.3, -0.2, 0.5 });
   for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
   {
     const Vector v = cross_product_3d(spin, stack.position(i));
     for (unsigned int d = 0; d < 3; ++d)
-      velocity[i].v[d] = v[d];
+      velocity[i][d] = v[d];
   }
   stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.history(),
                                   velocity.data(), 1e-4, viscous.data());

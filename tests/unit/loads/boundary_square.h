@@ -60,7 +60,7 @@ namespace quoin::test
 
     /** What the solver does before it: captures the nodes, as they are. */
     void capture(MotionConstraint<2> &constraint,
-                 const std::vector<NodeVector<2>> &force)
+                 const std::vector<dealii::Tensor<1, 2>> &force)
     {
       captured.clear();
       std::vector<unsigned int> positions;

@@ -80,30 +80,30 @@ TEST(NodalLoad, PressurePushesOnTheBlock)
 {
   const Rectangle rectangle;
   const NodalLoad<2> load = rectangle.load({ "right" }, "2 * t", 0.5);
-  std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
+  std::vector<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
   load.add_loads({ 3., 3. }, force.data());
   for (const unsigned int node : { 1U, 2U })
   {
-    EXPECT_DOUBLE_EQ(force[node].v[0], -6. * 0.5 * 0.5);
-    EXPECT_DOUBLE_EQ(force[node].v[1], 0.);
+    EXPECT_DOUBLE_EQ(force[node][0], -6. * 0.5 * 0.5);
+    EXPECT_DOUBLE_EQ(force[node][1], 0.);
   }
-  EXPECT_EQ(force[0].v[0], 0.);
+  EXPECT_EQ(force[0][0], 0.);
 }
 
 TEST(NodalLoad, PressureAllAroundIsInBalanceAndDoesTheWorkOfVolume)
 {
   const Rectangle rectangle;
   const NodalLoad<2> load = rectangle.load({ "wall", "right" }, "7", 2.);
-  std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
+  std::vector<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
   load.add_loads({ 0., 0. }, force.data());
   double sum[2] = { 0., 0. };
-  for (const NodeVector<2> &f : force)
+  for (const dealii::Tensor<1, 2> &f : force)
     for (unsigned int d = 0; d < 2; ++d)
-      sum[d] += f.v[d];
+      sum[d] += f[d];
   EXPECT_NEAR(sum[0], 0., 1e-14);
   EXPECT_NEAR(sum[1], 0., 1e-14);
   // The area, 3 m^2, grows by 0.1 + 0.2 of itself a second.
-  std::vector<NodeVector<2>> velocity;
+  std::vector<dealii::Tensor<1, 2>> velocity;
   for (const auto &p : rectangle.mesh.vertices)
     velocity.push_back({ { 0.1 * p[0], 0.2 * p[1] } });
   EXPECT_NEAR(load.external_power({ 0., 0. }, velocity.data()),
@@ -123,13 +123,13 @@ TEST(NodalLoad, DistributionIsAFactorByPlace)
   for (const double mass : { 1., 5. })
   {
     load.set_mass({ mass, 2. * mass, 3. * mass, 4. * mass });
-    std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
+    std::vector<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
     load.add_loads({ 0., 0. }, force.data());
     const double expected[4] = { 0., 12., 78., 80. };
     for (unsigned int i = 0; i < 4; ++i)
     {
-      EXPECT_DOUBLE_EQ(force[i].v[0], mass * expected[i]);
-      EXPECT_EQ(force[i].v[1], 0.);
+      EXPECT_DOUBLE_EQ(force[i][0], mass * expected[i]);
+      EXPECT_EQ(force[i][1], 0.);
     }
   }
   // A pressure at the nodes of the foot, x times half of its length.
@@ -140,11 +140,11 @@ TEST(NodalLoad, DistributionIsAFactorByPlace)
   parameters.distribution  = SpaceTimeFunction("if(y > 0.5, 0, x)", "./", 3);
   const NodalLoad<2> pressure(parameters, rectangle.nodes,
                               std::vector<double>(4, 1.), 1.);
-  std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
+  std::vector<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
   pressure.add_loads({ 0., 0. }, force.data());
-  EXPECT_DOUBLE_EQ(force[1].v[1], 4.5);
-  EXPECT_EQ(force[0].v[1], 0.);
-  EXPECT_EQ(force[2].v[1], 0.);
+  EXPECT_DOUBLE_EQ(force[1][1], 4.5);
+  EXPECT_EQ(force[0][1], 0.);
+  EXPECT_EQ(force[2][1], 0.);
 }
 
 TEST(NodalLoad, GravityActsInItsGroupsAlone)
@@ -169,10 +169,10 @@ TEST(NodalLoad, GravityActsInItsGroupsAlone)
   {
     const TestNodes nodes(mesh);
     const NodalLoad<2> load(parameters, nodes, mass, Thickness({ 1., 1. }));
-    std::vector<NodeVector<2>> force(8, NodeVector<2>{ { 0., 0. } });
+    std::vector<dealii::Tensor<1, 2>> force(8, dealii::Tensor<1, 2>());
     load.add_loads({ 0., 0. }, force.data());
     for (unsigned int i = 0; i < 8; ++i)
-      EXPECT_DOUBLE_EQ(force[i].v[1], i < 4 ? 0. : -3. * mass[i]);
+      EXPECT_DOUBLE_EQ(force[i][1], i < 4 ? 0. : -3. * mass[i]);
   }
   // One block of both groups has no weight of its own to be told apart.
   mesh.cells[2] = { { 1, 5, 6 } };

@@ -51,7 +51,7 @@ namespace
     }
   };
 
-  const std::vector<NodeVector<2>> no_forces(4, NodeVector<2>{ { 0., 0. } });
+  const std::vector<dealii::Tensor<1, 2>> no_forces(4, dealii::Tensor<1, 2>());
 } // namespace
 
 // 12 N on 6 kg, 30 N m about the middle of the block, from its loads and from
@@ -61,9 +61,9 @@ TEST(Platen, ForcesAndMomentsAccelerateItsMass)
   HeldBlock block(BoundarySquare::component(LoadQuantity::force, "12"), {},
                   BoundarySquare::component(LoadQuantity::force, "20"));
   // 5 N up on the right end, down on the left one, arms of 1.5 m
-  std::vector<NodeVector<2>> forces = no_forces;
-  forces[1].v[1]                    = 10. / 3.;
-  forces[3].v[1]                    = -10. / 3.;
+  std::vector<dealii::Tensor<1, 2>> forces = no_forces;
+  forces[1][1]                             = 10. / 3.;
+  forces[3][1]                             = -10. / 3.;
   block.capture(block.platen, forces);
   block.move(block.platen);
   const PlatenState &now = block.state.get<PlatenState>("plate");
@@ -72,9 +72,9 @@ TEST(Platen, ForcesAndMomentsAccelerateItsMass)
   EXPECT_NEAR(now.velocity[2], 30. / block.inertia() * block.dt, 1e-15);
   // The nodes turn about the middle, (2.5, 2.5); within the step their arms
   // turn by 2e-6.
-  EXPECT_NEAR(block.state.velocity[2].v[0],
+  EXPECT_NEAR(block.state.velocity[2][0],
               now.velocity[0] - 0.5 * now.velocity[2], 1e-8);
-  EXPECT_NEAR(block.state.velocity[2].v[1], 1.5 * now.velocity[2], 1e-8);
+  EXPECT_NEAR(block.state.velocity[2][1], 1.5 * now.velocity[2], 1e-8);
   // All the work is that of the loads.
   EXPECT_NEAR(block.state.pending.external,
               0.5 * block.dt * (12. * now.velocity[0] + 20. * now.velocity[2]),

@@ -46,8 +46,8 @@ TEST(PrescribedMotion, ReactionIsWhatTheMassesNeed)
   EXPECT_NEAR(motion.resultant()[0], first + second, 1e-9);
   EXPECT_EQ(motion.resultant()[1], 0.);
   EXPECT_NEAR(motion.resultant()[2], -2. * first - 3.5 * second, 1e-9);
-  EXPECT_DOUBLE_EQ(square.state.velocity[1].v[0], 3.5);
-  EXPECT_EQ(square.state.velocity[1].v[1], 7.); // is left alone
+  EXPECT_DOUBLE_EQ(square.state.velocity[1][0], 3.5);
+  EXPECT_EQ(square.state.velocity[1][1], 7.); // is left alone
   EXPECT_DOUBLE_EQ(square.state.nodes[2].u[0], 3.5 * square.dt);
   EXPECT_EQ(square.state.nodes[2].u[1], 0.5);
 
@@ -65,9 +65,9 @@ TEST(PrescribedMotion, ADisplacementMovesByItsChange)
   PrescribedMotion<2> motion(
       to_the_right(LoadQuantity::displacement, "5 + 2 * t"), square.nodes);
   square.capture(motion,
-                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
+                 std::vector<dealii::Tensor<1, 2>>(4, dealii::Tensor<1, 2>()));
   square.move(motion);
-  EXPECT_NEAR(square.state.velocity[1].v[0], 2., 1e-9);
+  EXPECT_NEAR(square.state.velocity[1][0], 2., 1e-9);
   EXPECT_NEAR(square.state.nodes[1].u[0], 2. * square.dt, 1e-12);
 }
 
@@ -81,10 +81,10 @@ TEST(PrescribedMotion, AVelocityByPlace)
   PrescribedMotion<2> motion(parameters, square.nodes);
   square.state.nodes[2].u[1] = 0.5;
   square.capture(motion,
-                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
+                 std::vector<dealii::Tensor<1, 2>>(4, dealii::Tensor<1, 2>()));
   square.move(motion);
-  EXPECT_DOUBLE_EQ(square.state.velocity[1].v[0], 21.);
-  EXPECT_DOUBLE_EQ(square.state.velocity[2].v[0], 31.5);
+  EXPECT_DOUBLE_EQ(square.state.velocity[1][0], 21.);
+  EXPECT_DOUBLE_EQ(square.state.velocity[2][0], 31.5);
   const LoadComponent &part = (*motion.parts())[0];
   EXPECT_NE(part.value({ 0., 0. }), part.value({ 1., 1. }));
 }
@@ -95,8 +95,8 @@ TEST(PrescribedMotion, BooksNoWorkOfComponentsThatAnotherLoadMoves)
   BoundarySquare square;
   PrescribedMotion<2> motion(to_the_right(LoadQuantity::velocity, "1"),
                              square.nodes);
-  square.capture(motion,
-                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 9., 0. } }));
+  square.capture(motion, std::vector<dealii::Tensor<1, 2>>(
+                             4, dealii::Tensor<1, 2>({ 9., 0. })));
   square.captured[0].owner[0] = nullptr;
   square.move(motion);
   EXPECT_NEAR(motion.resultant()[0], 2. / square.dt - 9., 1e-9);

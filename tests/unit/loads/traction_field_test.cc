@@ -55,18 +55,18 @@ namespace
   {
     Forces(const Rectangle &rectangle, const NodalLoad<2> &load,
            const TimePoint &time)
-      : at(4, NodeVector<2>{ { 0., 0. } })
+      : at(4, dealii::Tensor<1, 2>())
     {
       load.add_loads(time, at.data());
       for (unsigned int i = 0; i < 4; ++i)
       {
         const auto &p = rectangle.mesh.vertices[i];
-        x += at[i].v[0];
-        y += at[i].v[1];
-        moment += p[0] * at[i].v[1] - p[1] * at[i].v[0];
+        x += at[i][0];
+        y += at[i][1];
+        moment += p[0] * at[i][1] - p[1] * at[i][0];
       }
     }
-    std::vector<NodeVector<2>> at;
+    std::vector<dealii::Tensor<1, 2>> at;
     double x = 0., y = 0., moment = 0.;
   };
 } // namespace
@@ -124,18 +124,18 @@ TEST(TractionField, FunctionOfPlaceAndTime)
                        "set Horizontal = 5 * (T - t) * y\n");
   const Forces forces(rectangle, load, { 4., 10. });
   const double left = 4. * 2., right = 4. * 11.;
-  EXPECT_NEAR(forces.at[3].v[1], -thickness * 3. * (left / 3. + right / 6.),
+  EXPECT_NEAR(forces.at[3][1], -thickness * 3. * (left / 3. + right / 6.),
               1e-12);
-  EXPECT_NEAR(forces.at[2].v[1], -thickness * 3. * (left / 6. + right / 3.),
+  EXPECT_NEAR(forces.at[2][1], -thickness * 3. * (left / 6. + right / 3.),
               1e-12);
   EXPECT_NEAR(forces.x, thickness * 3. * 5. * 6., 1e-12);
-  EXPECT_EQ(forces.at[0].v[1], 0.);
+  EXPECT_EQ(forces.at[0][1], 0.);
 
   // Power of a node that moves alone.
-  std::vector<NodeVector<2>> velocity(4, NodeVector<2>{ { 0., 0. } });
-  velocity[2].v[1] = 2.;
+  std::vector<dealii::Tensor<1, 2>> velocity(4, dealii::Tensor<1, 2>());
+  velocity[2][1] = 2.;
   EXPECT_NEAR(load.external_power({ 4., 10. }, velocity.data()),
-              2. * forces.at[2].v[1], 1e-12);
+              2. * forces.at[2][1], 1e-12);
   EXPECT_NE(load.amplitude({ 4., 10. }), load.amplitude({ 4.1, 10.1 }));
 }
 
@@ -199,17 +199,18 @@ TEST(TractionField, InThreeDimensions)
         "push", "set Type = traction\n" + text);
     const NodalLoad<3> load(parameters.along_axes<3>(), nodes,
                             std::vector<double>(nodes.n_owned(), 1.), 1.);
-    std::vector<NodeVector<3>> force(nodes.n_local(), NodeVector<3>{});
+    std::vector<dealii::Tensor<1, 3>> force(nodes.n_local(),
+                                            dealii::Tensor<1, 3>());
     load.add_loads({ 0., 0. }, force.data());
     std::array<double, 6> result{};
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
     {
       const auto &p = nodes.point(i);
       for (unsigned int d = 0; d < 3; ++d)
-        result[d] += force[i].v[d];
-      result[3] += p[0] * force[i].v[2];
-      result[4] += p[1] * force[i].v[2];
-      result[5] += p[2] * force[i].v[0];
+        result[d] += force[i][d];
+      result[3] += p[0] * force[i][2];
+      result[4] += p[1] * force[i][2];
+      result[5] += p[2] * force[i][0];
     }
     return result;
   };

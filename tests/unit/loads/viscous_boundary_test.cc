@@ -60,10 +60,10 @@ TEST(ViscousBoundary, ResistsMotionByItsImpedance)
   ViscousBoundary<2> boundary = at_the_right(square, "0", "0");
   boundary.prepare(square.state);
   boundary.begin_stage(square.state, false);
-  for (NodeVector<2> &v : square.state.velocity)
+  for (dealii::Tensor<1, 2> &v : square.state.velocity)
     v = { { 2., 3. } };
   square.capture(boundary,
-                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
+                 std::vector<dealii::Tensor<1, 2>>(4, dealii::Tensor<1, 2>()));
   square.move(boundary);
   const double area = 0.5;
   EXPECT_NEAR(boundary.resultant()[0], -300. * 2. * area, 1e-6);
@@ -85,7 +85,7 @@ TEST(ViscousBoundary, IncidentWavesPushWithTwiceTheirTraction)
   boundary.prepare(square.state);
   boundary.begin_stage(square.state, false);
   square.capture(boundary,
-                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
+                 std::vector<dealii::Tensor<1, 2>>(4, dealii::Tensor<1, 2>()));
   square.move(boundary);
   EXPECT_NEAR(boundary.resultant()[0], -2. * 300. * 2. * 0.5, 1e-6);
   EXPECT_NEAR(boundary.resultant()[1], 2. * 200. * 3. * 0.5, 1e-6);

@@ -4,7 +4,7 @@
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/mesh_report.h>
-#include <quoin/base/node_vector.h>
+#include <quoin/base/node_record.h>
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/mesh/node_map.h>
 #include <quoin/mesh/partition.h>
@@ -168,16 +168,16 @@ namespace quoin::test
           key[dim] = v;
           valence[key] += 1.;
         }
-      std::vector<NodeVector<dim>> count(nodes.n_local());
+      std::vector<dealii::Tensor<1, dim>> count(nodes.n_local());
       for (unsigned int cell = 0; cell < nodes.cells().size(); ++cell)
         for (const unsigned int node : nodes.cells().nodes[cell])
-          count[node].v[0] += 1.;
+          count[node][0] += 1.;
       nodes.exchange().add_to_owners(count.data());
       double total = 0., squares = 0., expected = 0.;
       for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       {
-        total += count[i].v[0];
-        squares += count[i].v[0] * count[i].v[0];
+        total += count[i][0];
+        squares += count[i][0] * count[i][0];
       }
       for (const auto &[key, n] : valence)
         expected += n * n;

@@ -166,7 +166,7 @@ TEST(ModelBox, DeletedBlockTakesItsEnergyAlong)
       for (unsigned int d = 0; d < 2; ++d)
       {
         EXPECT_EQ(run.state.nodes[i].u[d], then.nodes[i].u[d]);
-        EXPECT_EQ(run.state.velocity[i].v[d], 0.);
+        EXPECT_EQ(run.state.velocity[i][d], 0.);
       }
     EXPECT_TRUE(run.solver.take_blocks_outside().empty());
   }
@@ -205,7 +205,7 @@ TEST(ModelBox, DeletedBlockTouchesNothing)
       double sum            = 0.;
       const NodeRange range = block_nodes(run.model, 1);
       for (std::size_t i = range.begin; i < range.end; ++i)
-        sum += run.model.mass()[i] * run.state.velocity[i].v[1];
+        sum += run.model.mass()[i] * run.state.velocity[i][1];
       return sum;
     };
     const double then = momentum();
@@ -309,7 +309,7 @@ TEST(ModelBox, DeletedBlocksStayDeletedInTheNextStageAndWhenResumed)
       for (unsigned int d = 0; d < 2; ++d)
       {
         EXPECT_EQ(run.state.nodes[i].u[d], resumed.state.nodes[i].u[d]);
-        EXPECT_EQ(run.state.velocity[i].v[d], resumed.state.velocity[i].v[d]);
+        EXPECT_EQ(run.state.velocity[i][d], resumed.state.velocity[i][d]);
       }
     EXPECT_EQ(run.state.energy.external, resumed.state.energy.external);
     const NodeRecord<2> &here = run.state.nodes[mesh.block_first_vertex[1]];
@@ -466,12 +466,12 @@ TEST(ModelBox, TheNodeThatMovedFarthest)
   run.begin(stage_with({}), 0.1);
   EXPECT_EQ(farthest_node(run.model, run.state).distance, 0.);
   const unsigned int far = run.node(2., 4.), near = run.node(0., 0.);
-  run.state.nodes[near].u[0]   = -4.;
-  run.state.nodes[far].u[0]    = 3.;
-  run.state.nodes[far].u[1]    = -4.;
-  run.state.velocity[far].v[0] = 1.;
-  run.state.velocity[far].v[1] = 2.;
-  const FarthestNode<2> found  = farthest_node(run.model, run.state);
+  run.state.nodes[near].u[0]  = -4.;
+  run.state.nodes[far].u[0]   = 3.;
+  run.state.nodes[far].u[1]   = -4.;
+  run.state.velocity[far][0]  = 1.;
+  run.state.velocity[far][1]  = 2.;
+  const FarthestNode<2> found = farthest_node(run.model, run.state);
   EXPECT_EQ(found.block, 1U);
   EXPECT_DOUBLE_EQ(found.distance, 5.);
   EXPECT_DOUBLE_EQ(found.speed, -1.);

@@ -94,7 +94,7 @@ TEST(Model, StartsAtRestInPlace)
     {
       EXPECT_EQ(state.nodes[v].X[d], mesh.vertices[v][d]);
       EXPECT_EQ(state.nodes[v].u[d], 0.);
-      EXPECT_EQ(state.velocity[v].v[d], 0.);
+      EXPECT_EQ(state.velocity[v][d], 0.);
     }
   for (const double sigma : state.get<JointHistory>().normal_traction)
     EXPECT_EQ(sigma, 0.);
@@ -121,10 +121,10 @@ TEST(Model, InitialStressInEquilibriumStaysAtRest)
   }
   run.begin(stage_with({ "top", "bottom", "sides" }));
   run.step(100);
-  for (const NodeVector<2> &v : run.state.velocity)
+  for (const dealii::Tensor<1, 2> &v : run.state.velocity)
     for (unsigned int d = 0; d < 2; ++d)
       // To rounding of forces of 1e6 N on 400 kg, a hundred times.
-      EXPECT_NEAR(v.v[d], 0., 1e-10 * run.dt() * 1e6 / 400. * 100.);
+      EXPECT_NEAR(v[d], 0., 1e-10 * run.dt() * 1e6 / 400. * 100.);
   // The rollers carry the horizontal stress: both sides together nothing,
   // the moment of either about the origin opposite.
   EXPECT_NEAR(run.solver.resultant("sides")[0], 0., 1e-4);

@@ -40,15 +40,15 @@ namespace
     std::array<double, 3> resultant(const LoadParameters &parameters) const
     {
       const NodalLoad<2> load(parameters, nodes, model->mass(), thickness);
-      std::vector<NodeVector<2>> force(nodes->n_local(), { { 0., 0. } });
+      std::vector<dealii::Tensor<1, 2>> force(nodes->n_local(), { { 0., 0. } });
       load.add_loads({ 0., 0. }, force.data());
       std::array<double, 3> sum{};
       for (unsigned int v = 0; v < force.size(); ++v)
       {
         const auto &p = nodes->point(v);
-        sum[0] += force[v].v[0];
-        sum[1] += force[v].v[1];
-        sum[2] += p[0] * force[v].v[1] - p[1] * force[v].v[0];
+        sum[0] += force[v][0];
+        sum[1] += force[v][1];
+        sum[2] += p[0] * force[v][1] - p[1] * force[v][0];
       }
       return sum;
     }
@@ -105,7 +105,8 @@ TEST(QuadraticModel, TractionAndPressureHaveTheirResultants)
   // Of each edge of 1 m: a sixth at its ends, two thirds in the middle.
   const NodalLoad<2> load(traction("pull", "top", "0", "1"), stack.nodes,
                           stack.model->mass(), thickness);
-  std::vector<NodeVector<2>> force(stack.nodes->n_local(), { { 0., 0. } });
+  std::vector<dealii::Tensor<1, 2>> force(stack.nodes->n_local(),
+                                          { { 0., 0. } });
   load.add_loads({ 0., 0. }, force.data());
   const double expected[]
       = { 1. / 6., 2. / 3., 1. / 3., 2. / 3., 1. / 3., 2. / 3., 1. / 6. };
@@ -113,7 +114,7 @@ TEST(QuadraticModel, TractionAndPressureHaveTheirResultants)
   {
     const auto nodes = nodes_at(stack.nodes, 0.8 + 0.5 * i, 4.);
     ASSERT_EQ(nodes.size(), 1U);
-    EXPECT_NEAR(force[nodes[0]].v[1], expected[i] * thickness, 1e-15);
+    EXPECT_NEAR(force[nodes[0]][1], expected[i] * thickness, 1e-15);
   }
 }
 

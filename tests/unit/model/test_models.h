@@ -218,7 +218,7 @@ namespace quoin::test
     {
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> uniform(-speed, speed);
-      for (NodeVector<2> &v : state.velocity)
+      for (dealii::Tensor<1, 2> &v : state.velocity)
         v = { { uniform(random), uniform(random) } };
     }
   };

@@ -107,7 +107,7 @@ namespace
     }
     // Copies of other ranks' nodes may be old.
     for (unsigned int i = numbers.n_owned_nodes; i < numbers.nodes.size(); ++i)
-      state.velocity[i].v[1] = -1.;
+      state.velocity[i][1] = -1.;
     state.energy.friction = is_first_rank ? 1. : 10.;
     Slice &slice          = state.add<Slice>();
     slice.n_own           = 2;
@@ -175,7 +175,7 @@ TEST(Redistribution, EachTakesItsOwn)
     for (unsigned int i = 0; i < 6; ++i)
     {
       EXPECT_EQ(state.nodes[i].X[0], double(here.nodes[i]));
-      EXPECT_EQ(state.velocity[i].v[1], 2. * double(here.nodes[i]));
+      EXPECT_EQ(state.velocity[i][1], 2. * double(here.nodes[i]));
     }
     const Slice &slice = state.get<Slice>();
     EXPECT_EQ(slice.of_cells, (std::vector<double>{ 0., 3., 12. }));
@@ -203,7 +203,7 @@ TEST(Redistribution, ToTheSameRanksIsTheSame)
     State<2> before      = state_of(two_ranks[rank], rank == 0);
     const State<2> after = gathered(two_ranks[rank], rank == 0);
     for (unsigned int i = 0; i < two_ranks[rank].n_owned_nodes; ++i)
-      EXPECT_EQ(after.velocity[i].v[1], before.velocity[i].v[1]);
+      EXPECT_EQ(after.velocity[i][1], before.velocity[i][1]);
     EXPECT_EQ(after.get<Slice>().of_own, before.get<Slice>().of_own);
     EXPECT_EQ(after.get<Slice>().items[0].force,
               before.get<Slice>().items[0].force);

@@ -58,10 +58,10 @@ namespace
       {
         const auto r    = run.nodes->point(i) - centroid;
         const double px = c * r[0] - s * r[1], py = s * r[0] + c * r[1];
-        run.state.nodes[i].u[0]    = x + px - r[0];
-        run.state.nodes[i].u[1]    = y + py - r[1];
-        run.state.velocity[i].v[0] = 3. - spin * py;
-        run.state.velocity[i].v[1] = -4. + spin * px;
+        run.state.nodes[i].u[0]  = x + px - r[0];
+        run.state.nodes[i].u[1]  = y + py - r[1];
+        run.state.velocity[i][0] = 3. - spin * py;
+        run.state.velocity[i][1] = -4. + spin * px;
       }
   }
 } // namespace

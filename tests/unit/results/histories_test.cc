@@ -36,7 +36,7 @@ namespace
     run.begin(stage_with({}));
     for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
       if (mesh.block_of_vertex(v) == (upper_first ? 0U : 1U))
-        run.state.velocity[v].v[0] = 1.;
+        run.state.velocity[v][0] = 1.;
     Histories<2> histories(points, run.model, run.solver, BoundaryGeometry(),
                            BoundaryElementParameters(), { false, false });
     histories.before_step(run.state);

@@ -80,9 +80,9 @@ namespace
     }
 
     /** Stored energy with the forces at the present positions. */
-    double energy(AlignedArray<NodeVector<2>> &force)
+    double energy(AlignedArray<dealii::Tensor<1, 2>> &force)
     {
-      force.assign(state.nodes.size(), NodeVector<2>{});
+      force.assign(state.nodes.size(), dealii::Tensor<1, 2>());
       const StepContext step{};
       beams->add_forces(step, state, { force.data(), nullptr });
       EnergyAccounts stored;
@@ -91,7 +91,7 @@ namespace
     }
     double energy()
     {
-      AlignedArray<NodeVector<2>> force;
+      AlignedArray<dealii::Tensor<1, 2>> force;
       return energy(force);
     }
 
@@ -123,9 +123,9 @@ namespace
       Eigen::VectorXd root(n);
       for (unsigned int i = 0; i < n; ++i)
       {
-        now().velocity[i / 2].v[i % 2] = 1.;
+        now().velocity[i / 2][i % 2] = 1.;
         root[i] = 1. / std::sqrt(2. * beams->kinetic_energy(state));
-        now().velocity[i / 2].v[i % 2] = 0.;
+        now().velocity[i / 2][i % 2] = 0.;
       }
       for (unsigned int i = 0; i < 2; ++i) // a fixed start
         if (is_fixed)
@@ -212,7 +212,7 @@ TEST(Beams, ForcesAreTheDerivativeOfTheEnergy)
   for (unsigned int i = 0; i < 4; ++i)
     for (unsigned int d = 0; d < 2; ++d)
       model.now().nodes[i].u[d] = 1e-4 * shift[i][d];
-  AlignedArray<NodeVector<2>> force;
+  AlignedArray<dealii::Tensor<1, 2>> force;
   model.energy(force);
   for (unsigned int i = 0; i < 4; ++i)
     for (unsigned int d = 0; d < 2; ++d)
@@ -224,8 +224,7 @@ TEST(Beams, ForcesAreTheDerivativeOfTheEnergy)
       u                  = -h;
       const double below = model.energy();
       u                  = 0.;
-      EXPECT_NEAR(force[i].v[d], -(above - below) / (2. * h),
-                  1e-3 * 3e9 * 1e-6);
+      EXPECT_NEAR(force[i][d], -(above - below) / (2. * h), 1e-3 * 3e9 * 1e-6);
     }
 }
 
@@ -241,7 +240,7 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
     const State<2> start = model.state;
     const auto settled   = [&](State<2> &now, Beams::Condensed *stiffness)
     {
-      AlignedArray<NodeVector<2>> force(4, NodeVector<2>{});
+      AlignedArray<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
       EXPECT_TRUE(
           model.beams->settle({ 0., 0. }, start, now, force.data(), stiffness));
       return force;
@@ -268,7 +267,7 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
           {
             const unsigned int node = model.beams->node_of_point(p);
             EXPECT_NEAR(stiffness[0](2 * p + d, 2 * q + e),
-                        -(above[node].v[d] - below[node].v[d]) / (2. * h), 1e4);
+                        -(above[node][d] - below[node][d]) / (2. * h), 1e4);
           }
       }
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_base_node_vector_h
-#define quoin_base_node_vector_h
+#ifndef quoin_base_node_record_h
+#define quoin_base_node_record_h
+
+#include <deal.II/base/point.h>
 
 #include <cstddef>
 #include <new>
@@ -52,15 +54,14 @@ namespace quoin
   template <int dim>
   struct alignas(dim == 2 ? 32 : 16) NodeRecord
   {
-    double X[dim];
-    double u[dim];
-  };
+    dealii::Point<dim> X;
+    dealii::Tensor<1, dim> u;
 
-  /** Components of a vector at a node: velocity [m/s] or force [N]. */
-  template <int dim>
-  struct alignas(dim == 2 ? 16 : 8) NodeVector
-  {
-    double v[dim];
+    /** Current position [m]. */
+    dealii::Point<dim> position() const
+    {
+      return X + u;
+    }
   };
 } // namespace quoin
 
