@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
 #include <quoin/blocks/rigid_blocks.h>
@@ -91,7 +93,7 @@ namespace quoin
         const auto &[i, j, k] = cells.nodes[c];
         const auto e1         = nodes.point(j) - nodes.point(i);
         const auto e2         = nodes.point(k) - nodes.point(i);
-        cell_mass.push_back(0.5 * std::abs(e1[0] * e2[1] - e1[1] * e2[0])
+        cell_mass.push_back(0.5 * std::abs(cross(e1, e2))
                             * thickness[cells.group[c]]
                             * density[cells.group[c]]);
         mass += cell_mass.back();
@@ -124,12 +126,8 @@ namespace quoin
         arms.push_back({ arm[0], arm[1], node_mass[v] / mass });
         lumped += node_mass[v] * arm.norm_square();
       }
-      blocks.push_back({ begin,
-                         begin + n_nodes,
-                         mass,
-                         inertia,
-                         lumped,
-                         { origin[0] + centre[0], origin[1] + centre[1] } });
+      blocks.push_back(
+          { begin, begin + n_nodes, mass, inertia, lumped, origin + centre });
     }
   }
 
@@ -258,8 +256,9 @@ namespace quoin
         damping.mass_power += 0.25 * m * (v0 + v1) * (v0 + v1);
         damping.kinetic_change += 0.5 * m * (v1 - v0) * (v1 + v0);
         rigid.velocity[d] = v1;
-        (d < 2 ? rigid.displacement[d] : rigid.rotation) += step.dt * v1;
       }
+      rigid.displacement += step.dt * vector_at(rigid.velocity, 0);
+      rigid.rotation += step.dt * rigid.velocity[2];
       work.unbalanced += std::hypot(f[0], f[1])
                          + std::abs(f[2]) * std::sqrt(mass[0] / mass[2]);
       place_nodes(block, rigid, before, state);
@@ -320,7 +319,7 @@ namespace quoin
       {
         const double change = duration * f[d] / mass[d];
         rigid.velocity[d] += change;
-        (d < 2 ? rigid.displacement[d] : rigid.rotation) += dt * change;
+        (d == 2 ? rigid.rotation : rigid.displacement[d]) += dt * change;
       }
       place_nodes(blocks[b], rigid, before, state);
     }
@@ -338,14 +337,13 @@ namespace quoin
       const double before    = rigid.rotation;
 
       // The centre of the lumped masses is the centroid of the block.
-      double d[2]{}, v[2]{};
+      dealii::Tensor<1, 2> d, v;
       const Arm *arm = arms_of(block);
       for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
-        for (unsigned int k = 0; k < 2; ++k)
-        {
-          d[k] += arm->share * state.nodes[i].u[k];
-          v[k] += arm->share * state.velocity[i][k];
-        }
+      {
+        d += arm->share * state.nodes[i].u;
+        v += arm->share * state.velocity[i];
+      }
 
       // (R - 1) r is the displacement of nodes relative to the centroid.
       double sine = 0., versine = 0., second = 0.;
@@ -374,11 +372,8 @@ namespace quoin
                   * (x * (state.velocity[i][1] - v[1])
                      - y * (state.velocity[i][0] - v[0]));
       }
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        rigid.displacement[k] = d[k];
-        rigid.velocity[k]     = v[k];
-      }
+      rigid.displacement = d;
+      set_vector(rigid.velocity, 0, v);
       rigid.velocity[2] = moment / ((c * c + s * s) * second);
     }
   }

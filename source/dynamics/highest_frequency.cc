@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
 #include <quoin/dynamics/highest_frequency.h>
 
 #include <Eigen/Dense>
@@ -132,7 +133,7 @@ namespace quoin
         if constexpr (dim == 2)
           for_each_rigid_node(
               [&](const unsigned int k, const unsigned int i,
-                  const std::array<double, 2> &arm)
+                  const dealii::Tensor<1, 2> &arm)
               {
                 const double spin = scale[k + 2] * x[k + 2];
                 velocity[i][0]    = scale[k] * x[k] - spin * arm[1];
@@ -150,12 +151,11 @@ namespace quoin
         if constexpr (dim == 2)
           for_each_rigid_node(
               [&](const unsigned int k, const unsigned int i,
-                  const std::array<double, 2> &arm)
+                  const dealii::Tensor<1, 2> &arm)
               {
-                const dealii::Tensor<1, 2> &f = force[i];
-                result[k] -= scale[k] * f[0];
-                result[k + 1] -= scale[k + 1] * f[1];
-                result[k + 2] -= scale[k + 2] * (arm[0] * f[1] - arm[1] * f[0]);
+                result[k] -= scale[k] * force[i][0];
+                result[k + 1] -= scale[k + 1] * force[i][1];
+                result[k + 2] -= scale[k + 2] * cross(arm, force[i]);
               });
         return result;
       }
@@ -172,13 +172,9 @@ namespace quoin
         {
           const RigidBlocks::Block &block = rigid.block(b);
           for (unsigned int i = block.begin; i < block.end; ++i)
-          {
-            std::array<double, 2> arm;
-            for (unsigned int d = 0; d < 2; ++d)
-              arm[d] = state.nodes[i].X[d] + state.nodes[i].u[d]
-                       - block.centre[d] - states[b].displacement[d];
-            use(k, i, arm);
-          }
+            use(k, i,
+                state.nodes[i].position()
+                    - (block.centre + states[b].displacement));
         }
       }
 

@@ -15,14 +15,12 @@ namespace quoin
                                   const State<2> &state)
     {
       const BlockInertia rest = inertia_of_block(model, block);
-      std::array<double, 2> sum{};
+      dealii::Tensor<1, 2> sum; // of masses by displacements
       for (const unsigned int i : owned_nodes(model, block))
-        for (unsigned int d = 0; d < 2; ++d)
-          sum[d] += model.mass()[i] * state.nodes[i].u[d];
-      MPI_Allreduce(MPI_IN_PLACE, sum.data(), 2, MPI_DOUBLE, MPI_SUM,
-                    model.nodes().communicator());
+        sum += model.mass()[i] * state.nodes[i].u;
       return rest.centroid
-             + dealii::Point<2>(sum[0] / rest.mass, sum[1] / rest.mass);
+             + dealii::Utilities::MPI::sum(sum, model.nodes().communicator())
+                   / rest.mass;
     }
 
     /** Whether @p constraint prescribes a component of the motion of @p block
@@ -38,7 +36,7 @@ namespace quoin
           continue;
         if (traits.is_rigid_body())
           return true;
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < state.velocity[i].dimension; ++d)
           if (traits.kind == MotionKind::prescribed && traits.holds[d]
               && state.velocity[i][d] != 0.)
             return true;

@@ -231,7 +231,7 @@ namespace quoin
       if (section)
         check_elements(*section, boundary);
       const std::string directions[] = { "Horizontal", "Vertical" };
-      for (unsigned int d = 0; d < 2; ++d)
+      for (const unsigned int d : { 0, 1 })
         entries.other(directions[d], "traction 0",
                       directions[d]
                           + " component of the boundary values: 'traction' "

@@ -334,14 +334,10 @@ namespace quoin
 
     for (unsigned int k = 0; k < node_list.size(); ++k)
     {
-      const auto v     = free_velocity(k);
-      const auto force = transfer.force(k, p);
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const double v1                 = v[d] - gain[k] * thickness * force[d];
-        state.velocity[node(k).node][d] = v1;
-        state.nodes[node(k).node].u[d] = node(k).displacement[d] + step.dt * v1;
-      }
+      const dealii::Tensor<1, 2> v1
+          = free_velocity(k) - gain[k] * thickness * transfer.force(k, p);
+      state.velocity[node(k).node] = v1;
+      state.nodes[node(k).node].u  = node(k).displacement + step.dt * v1;
     }
   }
 

@@ -266,8 +266,8 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, all.data(), all.size(), MPI_DOUBLE, MPI_SUM,
                   communicator);
     result.rows = MatrixXd::Zero(2 * own.size(), 2 * result.nodes.size());
-    for (unsigned int d = 0; d < 2; ++d)
-      for (unsigned int e = 0; e < 2; ++e)
+    for (const unsigned int d : { 0, 1 })
+      for (const unsigned int e : { 0, 1 })
       {
         MatrixXd part(n, n); // force by displacement of the elements
         for (Eigen::Index i = 0; i < n; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/constants.h>
 #include <quoin/implicit/dof_map.h>
 #include <quoin/loads/prescribed_motion.h>
@@ -74,11 +75,11 @@ namespace quoin
     for (const MotionConstraint<2> *constraint : constraints)
       if (constraint->traits().kind == MotionKind::prescribed)
         for (const unsigned int node : constraint->nodes())
-          for (unsigned int d = 0; d < 2; ++d)
+          for (unsigned int d = 0; d < dim; ++d)
             if (constraint->traits().holds[d])
               owner[node][d] = &(*constraint->parts())[d];
     for (unsigned int node = 0; node < n; ++node)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         if (owner[node][d] && !is_in_body(node) && !absent[node])
           prescribed_list.push_back({ node, d, owner[node][d] });
@@ -103,9 +104,9 @@ namespace quoin
       body.nodes       = platen->nodes();
       body.given       = platen->traits().holds;
       body.counts = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-      std::copy(now.centre, now.centre + 2, body.centre);
+      body.centre = now.centre;
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
-        body.arms.push_back({ { now.arms[2 * i], now.arms[2 * i + 1] } });
+        body.arms.push_back(vector_at(now.arms, i));
       body_list.push_back(body);
     }
     n_platens = body_list.size();
@@ -124,13 +125,12 @@ namespace quoin
       body.rigid_block = b;
       body.given       = { { false, false, false } };
       body.counts      = true;
-      std::copy(block.centre, block.centre + 2, body.centre);
+      body.centre      = block.centre;
       for (unsigned int i = block.begin; i < block.end; ++i)
       {
         const auto &X = model.nodes().point(i);
         body.nodes.push_back(i);
-        body.arms.push_back(
-            { { X[0] - block.centre[0], X[1] - block.centre[1] } });
+        body.arms.push_back(X - block.centre);
       }
       body_list.push_back(body);
     }
@@ -205,8 +205,8 @@ namespace quoin
       body.present_arms.resize(body.arms.size());
       for (unsigned int i = 0; i < body.arms.size(); ++i)
       {
-        const auto [x, y]    = body.arms[i];
-        body.present_arms[i] = { { c * x - s * y, s * x + c * y } };
+        const double x = body.arms[i][0], y = body.arms[i][1];
+        body.present_arms[i] = dealii::Point<2>(c * x - s * y, s * x + c * y);
       }
     }
   }
@@ -231,7 +231,7 @@ namespace quoin
     for (unsigned int i = 0; i < ties.size(); ++i)
     {
       const Tie &tie = ties[i];
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (tie.body != dealii::numbers::invalid_dof_index)
         {
           affine.add_line(dof(i, d));
@@ -273,7 +273,7 @@ namespace quoin
     const double before     = configuration.load_time;
     configuration.load_time = load_time;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (is_free(i, d))
           configuration.nodes[i].u[d] += share * increment(dof(i, d));
     for (const Prescribed &p : prescribed_list)

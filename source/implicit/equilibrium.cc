@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/implicit/equilibrium.h>
 #include <quoin/operators/archive.h>
 
@@ -114,14 +115,14 @@ namespace quoin
     // Nothing resists a translation of the model if only the far field supports
     // it. Forces without resultant do not cause one; a stiffness in the
     // derivative alone makes the equations regular.
-    unsigned int held[2] = { 0, 0 };
+    unsigned int held[dim] = {};
     for (const DofMap::Prescribed &given : dof_map.prescribed())
       held[given.component] = 1;
     for (const RigidBody &body : dof_map.bodies())
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (body.given[d])
           held[d] = 1;
-    MPI_Allreduce(MPI_IN_PLACE, held, 2, MPI_UNSIGNED, MPI_MAX, communicator);
+    MPI_Allreduce(MPI_IN_PLACE, held, dim, MPI_UNSIGNED, MPI_MAX, communicator);
     const double size = dealii::Utilities::MPI::max(
         stiffness.rows.size() > 0 ? stiffness.rows.cwiseAbs().maxCoeff() : 0.,
         communicator);
@@ -133,7 +134,7 @@ namespace quoin
     std::vector<Eigen::Index> rows, columns;
     std::vector<Index> dofs(2 * n, 0); // one more; 0: not free
     for (unsigned int k = 0; k < far_field->nodes().size(); ++k)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         const unsigned int node = far_field->nodes()[k];
         if (!dof_map.is_free(node, d))
@@ -160,7 +161,7 @@ namespace quoin
   {
     std::vector<Index> dofs(2 * beams->n_points(), 0); // one more; 0: held
     for (unsigned int p = 0; p < beams->n_points(); ++p)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (const unsigned int node = beams->node_of_point(p);
             node != NodeMap<2>::none && dof_map.is_free(node, d))
           dofs[2 * p + d] = 1 + dof_map.dof(node, d);
@@ -301,8 +302,7 @@ namespace quoin
                                 Slopes *slopes)
   {
     for (unsigned int k = 0; k < element.n_nodes; ++k)
-      for (unsigned int d = 0; d < 2; ++d)
-        force[element.nodes[k]][d] += element.force[2 * k + d];
+      force[element.nodes[k]] += vector_at(element.force, k);
     if (is_on_path(element))
       path += element.share * element.inelastic;
     if (!slopes)
@@ -340,7 +340,7 @@ namespace quoin
     for (const unsigned int node : nodes)
     {
       const auto &X = model.nodes().point(node);
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         const double by_far_field = force[node][d];
         applied_force[node][d] += by_far_field;
@@ -366,10 +366,8 @@ namespace quoin
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
     {
       const double stiffness = drag * drag_stiffness[i];
-      for (unsigned int d = 0; d < 2; ++d)
-        balance.drag[i][d]
-            = -stiffness
-              * (configuration.nodes[i].u[d] - committed.nodes[i].u[d]);
+      balance.drag[i]
+          = -stiffness * (configuration.nodes[i].u - committed.nodes[i].u);
       if (!slopes)
         continue;
       const double element[4] = { stiffness, 0., 0., stiffness };
@@ -456,13 +454,12 @@ namespace quoin
            { configuration.load_time, stage_start + configuration.load_time });
     balance.held.assign(dof_map.bodies().size(), { { 0., 0., 0. } });
     for (unsigned int i = 0; i < n_owned; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        applied_force[i][d] += balance.external[i][d];
-        balance.force[i][d] += applied_force[i][d];
-        if (!held.empty())
-          balance.force[i][d] += left * held[2 * i + d];
-      }
+    {
+      applied_force[i] += balance.external[i];
+      balance.force[i] += applied_force[i];
+      if (!held.empty())
+        balance.force[i] += left * vector_at(held, i);
+    }
     if (!held.empty())
       for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
         for (unsigned int d = 0; d < 3; ++d)
@@ -475,8 +472,7 @@ namespace quoin
                             AlignedArray<dealii::Tensor<1, 2>> &force) const
   {
     for (unsigned int i = 0; pattern && i < force.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        force[i][d] += factor * pattern->forces()[i][d];
+      force[i] += factor * pattern->forces()[i];
     for (const ForceOperator<2> *each : operators)
       each->add_loads({ load_time, stage_start + load_time }, force.data());
     for (unsigned int i = 0; i < force.size(); ++i)
@@ -491,17 +487,16 @@ namespace quoin
     double sums[3] = { 0., 0., 0. }; // unbalanced, applied, dragged
     AlignedArray<dealii::Tensor<1, 2>> total = balance.force;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        total[i][d] += balance.drag[i][d];
+      total[i] += balance.drag[i];
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
     {
-      sums[1] += norm(applied[i]);
-      sums[2] += norm(balance.drag[i]);
+      sums[1] += applied[i].norm();
+      sums[2] += balance.drag[i].norm();
       dealii::Tensor<1, 2> free = total[i], given = total[i];
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         (dof_map.is_free(i, d) ? given : free)[d] = 0.;
-      sums[0] += norm(free);
-      sums[1] += norm(given);
+      sums[0] += free.norm();
+      sums[1] += given.norm();
     }
     const auto bodies = body_forces(dof_map.bodies(), total, communicator);
     for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -510,13 +505,14 @@ namespace quoin
       if (!body.counts)
         continue;
       double size = 0.;
-      for (const auto &[x, y] : body.arms)
-        size = std::max({ size, std::abs(x), std::abs(y) });
+      for (const dealii::Tensor<1, dim> &arm : body.arms)
+        for (unsigned int d = 0; d < dim; ++d)
+          size = std::max(size, std::abs(arm[d]));
       for (unsigned int d = 0; d < 3; ++d)
-        if (!body.given[d] && (d < 2 || size > 0.))
+        if (!body.given[d] && (d < dim || size > 0.))
           sums[0] += std::abs(bodies[b][d] + balance.drives[b][d]
                               + balance.held[b][d])
-                     / (d == 2 ? size : 1.);
+                     / (d == dim ? size : 1.);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     balance.unbalanced = balance.beams_stand
@@ -571,9 +567,11 @@ namespace quoin
     const auto &now    = committed.get<ImplicitState>();
     const auto &held   = now.held;
     for (unsigned int i = 0; i < n_owned; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        change[i][d] -= balance.external[i][d]
-                        + (held.empty() ? 0. : freed * held[2 * i + d]);
+    {
+      change[i] -= balance.external[i];
+      if (!held.empty())
+        change[i] -= freed * vector_at(held, i);
+    }
     auto drives
         = body_loads(dof_map.bodies(),
                      { advance.load_time, stage_start + advance.load_time });

@@ -423,7 +423,7 @@ namespace quoin
   {
     double moved = 0.;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         moved = std::max(moved, std::abs(to[i].u[d] - from[i].u[d]));
     return dealii::Utilities::MPI::max(moved, communicator);
   }

@@ -271,7 +271,7 @@ namespace quoin
     now.step                   = parameters.first_step;
     const unsigned int n_owned = model.nodes().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i][d] : 0.);
     const auto forces
         = body_forces(dof_map->bodies(), balance.force, communicator);
@@ -336,7 +336,7 @@ namespace quoin
     const double left_1 = 1. - configuration.released;
     const double mean   = 0.5 * (left_0 + left_1);
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         const double u = configuration.nodes[i].u[d] - state.nodes[i].u[d];
         double force   = 0.5 * (start.external[i][d] + balance.external[i][d]);
@@ -352,7 +352,7 @@ namespace quoin
       }
     if (far.elastostatic_acts)
       for (unsigned int k = 0; k < far.elastostatic->nodes().size(); ++k)
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
         {
           const unsigned int node = far.elastostatic->nodes()[k];
           energy.external
@@ -446,7 +446,7 @@ namespace quoin
     for (unsigned int i = 0; i < n_owned; ++i)
     {
       double square = 0.;
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (dof_map->is_free(i, d))
           square += balance.force[i][d] * balance.force[i][d];
       if (!dof_map->is_in_body(i))
@@ -455,7 +455,7 @@ namespace quoin
     const auto forces
         = body_forces(dof_map->bodies(), balance.force, communicator);
     for (unsigned int b = 0; b < forces.size(); ++b)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (const RigidBody &body = dof_map->bodies()[b];
             !body.given[d] && !body.nodes.empty())
           compare(body.nodes.front(),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
+#include <quoin/base/packed_vectors.h>
 #include <quoin/dynamics/load_pattern.h>
 #include <quoin/implicit/rigid_bodies.h>
 #include <quoin/loads/platen.h>
@@ -62,8 +64,8 @@ namespace quoin
       {
         RigidBlockState &block
             = state.get<RigidBlockStates>()[bodies[b].rigid_block];
-        std::copy(d.begin(), d.begin() + 2, block.displacement);
-        block.rotation = d[2];
+        block.displacement = vector_at(d, 0);
+        block.rotation     = d[2];
       }
     }
   }
@@ -78,7 +80,7 @@ namespace quoin
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
       {
         NodeRecord<2> &node = configuration.nodes[body.nodes[i]];
-        const auto [x, y]   = body.arms[i];
+        const double x = body.arms[i][0], y = body.arms[i][1];
         // Terms that nearly cancel are summed first, to keep digits.
         node.u[0]
             = body.centre[0] + x - node.X[0] + d[0] + (c - 1.) * x - s * y;
@@ -108,10 +110,8 @@ namespace quoin
       for (unsigned int i = 0; i < bodies[b].nodes.size(); ++i)
       {
         const dealii::Tensor<1, 2> &f = force[bodies[b].nodes[i]];
-        const auto &arm               = bodies[b].present_arms[i];
-        result[b][0] += f[0];
-        result[b][1] += f[1];
-        result[b][2] += arm[0] * f[1] - arm[1] * f[0];
+        add_to_vector(result[b], 0, f);
+        result[b][2] += cross(bodies[b].present_arms[i], f);
       }
     sum_of_platens(bodies, result, communicator);
     return result;

@@ -59,7 +59,7 @@ namespace quoin
     std::array<double, 4> box
         = { polygon[0][0], polygon[0][1], polygon[0][0], polygon[0][1] };
     for (const Point &p : polygon)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < p.dimension; ++d)
       {
         box[d]     = std::min(box[d], p[d]);
         box[2 + d] = std::max(box[2 + d], p[d]);

@@ -121,10 +121,8 @@ namespace quoin
           const double phi  = (k == 0 ? 1. - at : at) + face.shares[k] - 0.5;
           NodeMass<2> &node = found[face.nodes[k]];
           node.node         = face.nodes[k];
-          for (unsigned int d = 0; d < 2; ++d)
-            for (unsigned int e = 0; e < 2; ++e)
-              node.mass[d][e] += phi * mass * face.outward[d] * face.outward[e]
-                                 / (area * area);
+          node.mass += phi * mass / (area * area)
+                       * outer_product(face.outward, face.outward);
         }
       }
     }
@@ -143,9 +141,7 @@ namespace quoin
       {
         NodeMass<2> &node = found[each.node];
         node.node         = each.node;
-        for (unsigned int d = 0; d < 2; ++d)
-          for (unsigned int e = 0; e < 2; ++e)
-            node.mass[d][e] += each.mass[d][e];
+        node.mass += each.mass;
       }
     std::vector<NodeMass<2>> result;
     for (const auto &[number, node] : found)

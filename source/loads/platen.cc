@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
+#include <quoin/base/packed_vectors.h>
 #include <quoin/operators/archive.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/local_damping.h>
@@ -84,48 +86,45 @@ namespace quoin
   void Platen::begin_stage(State<2> &state, const bool continues)
   {
     PlatenState &platen = state.get<PlatenState>(load_name);
-    std::array<double, 6> moments{};
+    double mass         = 0.;
+    dealii::Tensor<1, 2> of_position, momentum;
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
       const NodeRecord<2> &node     = state.nodes[node_list[i]];
       const dealii::Tensor<1, 2> &v = state.velocity[node_list[i]];
-      moments[0] += node_mass[i];
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        moments[1 + d] += node_mass[i] * (node.X[d] + node.u[d]);
-        moments[3 + d] += node_mass[i] * v[d];
-      }
+      mass += node_mass[i];
+      of_position += node_mass[i] * node.position();
+      momentum += node_mass[i] * v;
     }
-    moments = sum(moments, communicator);
+    namespace MPI = dealii::Utilities::MPI;
+    mass          = MPI::sum(mass, communicator);
+    of_position   = MPI::sum(of_position, communicator);
+    momentum      = MPI::sum(momentum, communicator);
 
     const bool is_new = !continues || !platen.active;
     if (is_new)
     {
       platen        = PlatenState();
       platen.active = true;
-      for (unsigned int d = 0; d < 2; ++d)
-        platen.velocity[d] = moments[3 + d] / moments[0];
+      set_vector(platen.velocity, 0, momentum / mass);
     }
     std::copy(platen.displacement, platen.displacement + 3, platen.stage_start);
 
     // Centre and arms follow from the masses of this stage.
-    const double c = std::cos(platen.displacement[2]),
-                 s = std::sin(platen.displacement[2]);
-    const double centre[2]
-        = { moments[1] / moments[0], moments[2] / moments[0] };
+    const double c                    = std::cos(platen.displacement[2]),
+                 s                    = std::sin(platen.displacement[2]);
+    const dealii::Tensor<1, 2> centre = of_position / mass;
     platen.arms.clear();
-    double spin = rigid_spin;
-    for (unsigned int d = 0; d < 2; ++d)
-      platen.centre[d] = centre[d] - platen.displacement[d];
+    double spin   = rigid_spin;
+    platen.centre = centre - vector_at(platen.displacement, 0);
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const NodeRecord<2> &node     = state.nodes[node_list[i]];
-      const dealii::Tensor<1, 2> &v = state.velocity[node_list[i]];
-      const double x                = node.X[0] + node.u[0] - centre[0];
-      const double y                = node.X[1] + node.u[1] - centre[1];
-      platen.arms.push_back(c * x + s * y);
-      platen.arms.push_back(c * y - s * x);
-      spin += node_mass[i] * (x * v[1] - y * v[0]);
+      const NodeRecord<2> &node      = state.nodes[node_list[i]];
+      const dealii::Tensor<1, 2> &v  = state.velocity[node_list[i]];
+      const dealii::Tensor<1, 2> arm = node.position() - centre;
+      platen.arms.push_back(c * arm[0] + s * arm[1]);
+      platen.arms.push_back(c * arm[1] - s * arm[0]);
+      spin += node_mass[i] * cross(arm, v);
     }
     spin = sum<1>({ spin }, communicator)[0];
     resume_stage(state);
@@ -199,7 +198,7 @@ namespace quoin
                          * (before + platen.velocity[d]);
       // A moment counts as a force at the radius of gyration.
       last_unbalanced += std::abs(total)
-                         / (d < 2 ? 1. : std::sqrt(inertia[2] / inertia[0]));
+                         / (d == 2 ? std::sqrt(inertia[2] / inertia[0]) : 1.);
     }
     if (driven(d))
       drive[d] = inertia[d] * (platen.velocity[d] - before) / step.dt_velocity
@@ -227,18 +226,17 @@ namespace quoin
     {
       const CapturedNode<2> &before = captured[captured_positions[i]];
       NodeRecord<2> &node           = state.nodes[before.node];
-      const double arm[2]           = { c * arms[2 * i] - s * arms[2 * i + 1],
-                                        s * arms[2 * i] + c * arms[2 * i + 1] };
+      const dealii::Point<2> arm(c * arms[2 * i] - s * arms[2 * i + 1],
+                                 s * arms[2 * i] + c * arms[2 * i + 1]);
+      const dealii::Point<2> arm_before(c0 * arms[2 * i] - s0 * arms[2 * i + 1],
+                                        s0 * arms[2 * i]
+                                            + c0 * arms[2 * i + 1]);
       // Velocity by the mean arm: differences of positions lose digits.
-      const double mean[2]
-          = { 0.5 * (arm[0] + c0 * arms[2 * i] - s0 * arms[2 * i + 1]),
-              0.5 * (arm[1] + s0 * arms[2 * i] + c0 * arms[2 * i + 1]) };
-      dealii::Tensor<1, 2> &velocity = state.velocity[before.node];
+      const dealii::Tensor<1, 2> mean = 0.5 * (arm + arm_before);
+      dealii::Tensor<1, 2> &velocity  = state.velocity[before.node];
       velocity[0] = platen.velocity[0] - platen.velocity[2] * mean[1];
       velocity[1] = platen.velocity[1] + platen.velocity[2] * mean[0];
-      for (unsigned int d = 0; d < 2; ++d)
-        node.u[d]
-            = platen.centre[d] + platen.displacement[d] + arm[d] - node.X[d];
+      node.u = platen.centre + vector_at(platen.displacement, 0) + arm - node.X;
     }
   }
 

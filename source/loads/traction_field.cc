@@ -125,11 +125,10 @@ namespace quoin
     if (pressure.field && pressure.field->uplift())
     {
       const UpliftDiagram &uplift = *pressure.field->uplift();
-      dealii::Tensor<1, 3> along;
-      for (unsigned int d = 0; d < 2; ++d)
-        along[d] = (uplift.toe[d] - uplift.heel[d]) / uplift.length();
-      const double start
-          = along[0] * uplift.heel[0] + along[1] * uplift.heel[1];
+      const dealii::Tensor<1, 2> base
+          = (uplift.toe - uplift.heel) / uplift.length();
+      const dealii::Point<3> along(base[0], base[1], 0.);
+      const double start = base * uplift.heel;
       for (const double kink : uplift.kinks(crack_length))
         cuts.push_back({ along, start + kink });
     }

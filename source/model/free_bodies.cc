@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/point_text.h>
 #include <quoin/base/exceptions.h>
@@ -199,7 +200,7 @@ namespace quoin
           = MPI::min(has_first ? own : MPI::n_mpi_processes(all), all);
       if (holds[2] || own != from)
         return;
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (holds[d])
           add(first, row<dim>(d, arm(nodes.point(constraint.nodes().front()))));
     }
@@ -237,8 +238,7 @@ namespace quoin
           part[d] = (*platen.parts())[d].value(time) / n;
       for (const unsigned int i : platen.nodes())
       {
-        for (unsigned int d = 0; d < 2; ++d)
-          force[i][d] += part[d];
+        force[i] += vector_at(part, 0);
         double *sum = &sums[4 * bodies.body(model.nodes().block_of_node(i))];
         sum[2] += part[2] / bodies.length();
         sum[3] += std::abs(part[2]) / bodies.length();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/model/block_placement.h>
@@ -148,23 +149,21 @@ namespace quoin
                               const State<2> &state) const
   {
     // Positions, velocities and how many nodes there are.
-    std::vector<double> sums(5 * found.size(), 0.);
+    std::vector<double> sums(4 * found.size(), 0.);
+    std::vector<unsigned int> n_nodes(found.size(), 0);
     for (unsigned int k = 0; k < found.size(); ++k)
       for (const unsigned int i : owned_nodes(model, found[k].block))
       {
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          sums[5 * k + d] += state.nodes[i].X[d] + state.nodes[i].u[d];
-          sums[5 * k + 2 + d] += state.velocity[i][d];
-        }
-        ++sums[5 * k + 4];
+        add_to_vector(sums, 2 * k, state.nodes[i].position());
+        add_to_vector(sums, 2 * k + 1, state.velocity[i]);
+        ++n_nodes[k];
       }
     dealii::Utilities::MPI::sum(sums, model.nodes().communicator(), sums);
+    dealii::Utilities::MPI::sum(n_nodes, model.nodes().communicator(), n_nodes);
     for (unsigned int k = 0; k < found.size(); ++k)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        found[k].position[d] = sums[5 * k + d] / sums[5 * k + 4];
-        found[k].velocity[d] = sums[5 * k + 2 + d] / sums[5 * k + 4];
-      }
+    {
+      found[k].position = vector_at(sums, 2 * k) / double(n_nodes[k]);
+      found[k].velocity = vector_at(sums, 2 * k + 1) / double(n_nodes[k]);
+    }
   }
 } // namespace quoin

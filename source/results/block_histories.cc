@@ -127,7 +127,7 @@ namespace quoin
       {
         const RigidBlockState &rigid
             = state.get<RigidBlockStates>()[rigid_number(model, block.number)];
-        sum.displacement = vector_at(rigid.displacement, 0);
+        sum.displacement = rigid.displacement;
         sum.sine         = rigid.rotation;
       }
       if (block.is_rigid)

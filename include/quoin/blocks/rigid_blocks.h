@@ -29,7 +29,7 @@ namespace quoin
   struct RigidBlockState
   {
     /** Displacement of the centroid from the reference [m]. */
-    double displacement[2]{};
+    dealii::Tensor<1, 2> displacement;
     double rotation = 0.; /**< counts full turns */
     /** Velocity of the centroid and spin at time - dt/2. */
     double velocity[3]{};
@@ -94,7 +94,7 @@ namespace quoin
       double mass;             /**< [kg] */
       double inertia;          /**< moment about the centroid [kg m^2] */
       double lumped_inertia; /**< moment of the nodes' lumped masses [kg m^2] */
-      double centre[2];      /**< centroid in the reference [m] */
+      dealii::Tensor<1, 2> centre; /**< centroid in the reference [m] */
     };
 
     /**

@@ -143,11 +143,13 @@ namespace quoin
                     Vector &right_hand_side) const;
 
   private:
+    static constexpr unsigned int dim = 2;
+
     /** Constraint of a local node, received from its owner. */
     struct Tie
     {
       Index body; /**< first degree of freedom of its body, or invalid */
-      std::array<double, 2> motion; /**< present arm or displacement [m] */
+      dealii::Tensor<1, 2> motion; /**< present arm or displacement [m] */
       std::array<bool, 2> given; /**< whether prescribed, if there is no body */
     };
 

@@ -146,6 +146,8 @@ namespace quoin
     }
 
   private:
+    static constexpr unsigned int dim = 2;
+
     void make_pattern();
     void find_far_stiffness();
     /** Stiffest joint point, for models without deformable blocks [N/m]. */

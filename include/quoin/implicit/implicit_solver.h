@@ -150,6 +150,8 @@ namespace quoin
     }
 
   private:
+    static constexpr unsigned int dim = 2;
+
     /** Target of a step. */
     struct Target
     {

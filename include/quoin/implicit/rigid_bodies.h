@@ -20,13 +20,13 @@ namespace quoin
   {
     const MotionConstraint<2> *platen; /**< null: a rigid block */
     unsigned int rigid_block;
-    double centre[2];          /**< centre at zero displacement [m] */
-    std::array<bool, 3> given; /**< prescribed by functions of time */
+    dealii::Tensor<1, 2> centre; /**< centre at zero displacement [m] */
+    std::array<bool, 3> given;   /**< prescribed by functions of time */
     /** First of its degrees of freedom. */
     dealii::types::global_dof_index first;
-    std::vector<unsigned int> nodes;                 /**< owned ones */
-    std::vector<std::array<double, 2>> arms;         /**< unrotated [m] */
-    std::vector<std::array<double, 2>> present_arms; /**< rotated [m] */
+    std::vector<unsigned int> nodes;                /**< owned ones */
+    std::vector<dealii::Tensor<1, 2>> arms;         /**< unrotated [m] */
+    std::vector<dealii::Tensor<1, 2>> present_arms; /**< rotated [m] */
     bool counts; /**< whether this rank books its work and equations */
   };
 

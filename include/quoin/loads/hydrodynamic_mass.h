@@ -21,7 +21,7 @@ namespace quoin
   struct NodeMass
   {
     unsigned int node; /**< local, owned */
-    std::array<std::array<double, dim>, dim> mass;
+    dealii::Tensor<2, dim> mass;
   };
 
   /**

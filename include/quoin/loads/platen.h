@@ -14,7 +14,7 @@ namespace quoin
   struct PlatenState
   {
     bool active = false;
-    double centre[2]{}; /**< position when it first acted [m] */
+    dealii::Tensor<1, 2> centre; /**< position when it first acted [m] */
     /** Displacement since it first acted [m, m, rad]. */
     double displacement[3]{};
     /** Displacement at the start of the stage [m, m, rad]. */

@@ -22,10 +22,10 @@ namespace quoin
   /** A block that was found outside the box. */
   struct BlockOutside
   {
-    unsigned int block; /**< number of the block in the whole mesh */
-    std::array<double, 2> position; /**< mean of its nodes now [m] */
-    std::array<double, 2> velocity; /**< mean of its nodes [m/s] */
-    double time;                    /**< time of detection [s] */
+    unsigned int block;            /**< number of the block in the whole mesh */
+    dealii::Point<2> position;     /**< mean of its nodes now [m] */
+    dealii::Tensor<1, 2> velocity; /**< mean of its nodes [m/s] */
+    double time;                   /**< time of detection [s] */
     bool removed; /**< whether the block was removed or only reported */
   };
 
