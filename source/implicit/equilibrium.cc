@@ -21,11 +21,6 @@ namespace quoin
     /** Displacement of all nodes by the model's size [-]: the forces for it
         count as applied, as without loads there is only rounding. */
     constexpr double least_motion = 1e-11;
-
-    double norm(const dealii::Tensor<1, 2> &f)
-    {
-      return std::sqrt(f[0] * f[0] + f[1] * f[1]);
-    }
   } // namespace
 
   Equilibrium::Equilibrium(const Model<2> &model, DofMap &dof_map,

@@ -35,7 +35,7 @@ namespace
   {
     double sum = 0.;
     for (unsigned int i = 0; i < force.size(); ++i)
-      sum += vector(force[i].v).dot(vector(velocity[i].v));
+      sum += vector(force[i]).dot(vector(velocity[i]));
     return sum;
   }
 
@@ -43,7 +43,7 @@ namespace
   {
     Forces3 velocity = mesh.zero();
     for (dealii::Tensor<1, 3> &v : velocity)
-      for (double &component : v.v)
+      for (double &component : dealii::make_array_view(v))
         component = mesh.uniform(1.);
     return velocity;
   }
@@ -69,8 +69,8 @@ namespace
     for (unsigned int i = begin; i < end; ++i)
     {
       const Vector3d x = vector(mesh.nodes[i].X) + vector(mesh.nodes[i].u);
-      sum += vector(force[i].v);
-      moment += x.cross(vector(force[i].v));
+      sum += vector(force[i]);
+      moment += x.cross(vector(force[i]));
     }
     return { sum, moment };
   }
@@ -155,9 +155,9 @@ TEST(BlockForces3, UniformStrainPatch)
                    && mesh.nodes[i].X[d] < extent[d];
         if (inside)
         {
-          EXPECT_LT(vector(force[i].v).norm(), tolerance);
+          EXPECT_LT(vector(force[i]).norm(), tolerance);
         }
-        moments += vector(force[i].v) * vector(mesh.nodes[i].X).transpose();
+        moments += vector(force[i]) * vector(mesh.nodes[i].X).transpose();
       }
       // The mean of the first Piola-Kirchhoff stress, times the volume.
       EXPECT_LT((moments + 3. * R * S).cwiseAbs().maxCoeff(), 10. * tolerance);
@@ -367,7 +367,7 @@ TEST(BlockForces3, InitialStressTurnsWithTheBlock)
   mesh.displace(R);
   const Forces3 after = mesh.forces(blocks);
   for (unsigned int i = 0; i < after.size(); ++i)
-    EXPECT_LT((vector(after[i].v) - R * vector(before[i].v)).norm(),
+    EXPECT_LT((vector(after[i]) - R * vector(before[i])).norm(),
               1e-4); // of 1e5 N
   EXPECT_LT((matrix(cell_stress(blocks, mesh.nodes.data(), {}, 17))
              - R * s * R.transpose())
@@ -394,7 +394,7 @@ TEST(BlockForces3, ViscousForces)
     const Vector3d x = vector(mesh.nodes[i].X) + vector(mesh.nodes[i].u);
     const Vector3d v
         = Vector3d(0.3, -1., 0.4) + Vector3d(1., 0.2, -0.5).cross(x);
-    std::copy(v.data(), v.data() + 3, rigid[i].v);
+    std::copy(v.data(), v.data() + 3, rigid[i].begin_raw());
   }
   EXPECT_LT(largest(viscous_forces(blocks, mesh, rigid, beta)),
             1e-12 * largest(force));
@@ -408,7 +408,7 @@ TEST(BlockForces3, ViscousForces)
       mesh.nodes[i].u[d] = h * velocity[i][d];
   Forces3 rate = mesh.forces(blocks);
   for (dealii::Tensor<1, 3> &f : rate)
-    for (double &component : f.v)
+    for (double &component : dealii::make_array_view(f))
       component *= beta / h;
   EXPECT_LT(largest_difference(at_rest, rate), 1e-5 * largest(at_rest));
 }
@@ -540,7 +540,7 @@ TEST(BlockForces3d, YieldingBlocksAgreeWithSingleCells)
         // Forces of blocks add up to nothing.
         Vector3d sum = Vector3d::Zero();
         for (const dealii::Tensor<1, 3> &f : force_a)
-          sum += vector(f.v);
+          sum += vector(f);
         EXPECT_LT(sum.norm(), 1e-9 * largest(force_a));
       }
     }
@@ -562,7 +562,7 @@ TEST(BlockForces3d, ForcesOfYieldedCellsAreThoseOfTheirEnergy)
   EXPECT_GT(blocks.update(mesh.nodes.data(), history), 0.);
   // Back by a part of the elastic strain.
   for (NodeRecord<3> &node : mesh.nodes)
-    for (double &u : node.u)
+    for (double &u : dealii::make_array_view(node.u))
       u *= 0.99;
   PlasticHistory same = history;
   Forces3 force       = mesh.zero();

@@ -42,7 +42,7 @@ namespace
       *dissipated = lost;
     Vector force;
     for (const dealii::Tensor<1, 2> &sum : sums)
-      force.insert(force.end(), sum.v, sum.v + 2);
+      force.insert(force.end(), sum.begin_raw(), sum.end_raw());
     return force;
   }
 

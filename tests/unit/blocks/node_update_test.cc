@@ -34,11 +34,11 @@ namespace
       viscous.resize(n);
       for (unsigned int i = 0; i < n; ++i)
       {
-        fill(nodes[i].X);
+        fill(nodes[i].X.begin_raw());
         fill(nodes[i].u);
-        fill(velocity[i].v);
-        fill(force[i].v);
-        fill(viscous[i].v);
+        fill(velocity[i].begin_raw());
+        fill(force[i].begin_raw());
+        fill(viscous[i].begin_raw());
         mass.push_back(2. + uniform(random));
         inverse_mass.push_back(1. / mass.back());
       }

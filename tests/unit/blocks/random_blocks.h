@@ -112,7 +112,7 @@ namespace quoin
           reach[cell[(i + 1) % 3]] = std::min(reach[cell[(i + 1) % 3]], length);
         }
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        for (double &u : nodes[i].u)
+        for (double &u : dealii::make_array_view(nodes[i].u))
           u += strain * reach[i] * random();
     }
 

@@ -23,7 +23,7 @@ namespace quoin::test
   using Eigen::Vector3d;
   using Forces3 = AlignedArray<dealii::Tensor<1, 3>>;
 
-  inline Vector3d vector(const double (&a)[3])
+  inline Vector3d vector(const dealii::Tensor<1, 3> &a)
   {
     return { a[0], a[1], a[2] };
   }
@@ -141,7 +141,7 @@ namespace quoin::test
       for (NodeRecord<3> &node : nodes)
       {
         const Vector3d u = (F - Matrix3d::Identity()) * vector(node.X) + shift;
-        std::copy(u.data(), u.data() + 3, node.u);
+        std::copy(u.data(), u.data() + 3, node.u.begin_raw());
       }
     }
 
@@ -149,7 +149,7 @@ namespace quoin::test
     void disturb(const double size)
     {
       for (NodeRecord<3> &node : nodes)
-        for (double &u : node.u)
+        for (double &u : dealii::make_array_view(node.u))
           u += uniform(size);
     }
 
@@ -187,7 +187,7 @@ namespace quoin::test
   {
     double max = 0.;
     for (const dealii::Tensor<1, 3> &f : a)
-      for (const double component : f.v)
+      for (const double component : dealii::make_array_view(f))
         max = std::max(max, std::abs(component));
     return max;
   }

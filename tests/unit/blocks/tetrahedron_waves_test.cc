@@ -30,10 +30,10 @@ namespace
       for (unsigned int i = 0; i < free.mass.size(); ++i)
       {
         const Vector3d x = vector(mesh.nodes[i].X) + vector(mesh.nodes[i].u);
-        const Vector3d v = vector(free.velocity[i].v);
+        const Vector3d v = vector(free.velocity[i]);
         momentum += free.mass[i] * v;
         angular += free.mass[i] * x.cross(v);
-        energy += 0.5 * free.mass[i] * v.dot(vector(before[i].v));
+        energy += 0.5 * free.mass[i] * v.dot(vector(before[i]));
       }
     }
   };
@@ -44,7 +44,7 @@ namespace
     for (NodeRecord<3> &node : mesh.nodes)
     {
       const Vector3d X = R * vector(node.X);
-      std::copy(X.data(), X.data() + 3, node.X);
+      std::copy(X.data(), X.data() + 3, node.X.begin_raw());
     }
   }
 
@@ -71,7 +71,7 @@ namespace
 
     double velocity(const unsigned int level) const
     {
-      return vector(free->velocity[4 * level].v).dot(direction);
+      return vector(free->velocity[4 * level]).dot(direction);
     }
 
     double displacement(const unsigned int level) const
@@ -108,7 +108,7 @@ namespace
           const double m = free->mass[i];
           mass += m;
           u += m * vector(mesh.nodes[i].u).dot(direction);
-          v += m * vector(free->velocity[i].v).dot(direction);
+          v += m * vector(free->velocity[i]).dot(direction);
         }
         u /= mass;
         v /= mass;
@@ -127,7 +127,7 @@ namespace
     {
       double sum = strain_energy(free->blocks, mesh.nodes.data(), {});
       for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-        sum += 0.5 * free->mass[i] * vector(free->velocity[i].v).squaredNorm();
+        sum += 0.5 * free->mass[i] * vector(free->velocity[i]).squaredNorm();
       return sum;
     }
   };
@@ -146,7 +146,7 @@ TEST(TetrahedronWaves, FreeFlightKeepsMomentaAndEnergy)
     {
       const Vector3d v
           = Vector3d(1., -2., 3.) + spin.cross(vector(mesh.nodes[i].X));
-      std::copy(v.data(), v.data() + 3, free.velocity[i].v);
+      std::copy(v.data(), v.data() + 3, free.velocity[i].begin_raw());
     }
     const Motion start(free, free.velocity);
     double least = 1e300, most = 0.;
@@ -198,7 +198,7 @@ TEST(TetrahedronWaves, SpinAboutTheMiddleAxisTurnsOver)
   for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
   {
     const Vector3d v = omega.cross(vector(mesh.nodes[i].X) - centre);
-    std::copy(v.data(), v.data() + 3, free.velocity[i].v);
+    std::copy(v.data(), v.data() + 3, free.velocity[i].begin_raw());
   }
 
   Matrix3d R      = Matrix3d::Identity();

@@ -35,7 +35,7 @@ namespace
     }
     RandomBlocks x = mesh;
     for (NodeRecord<2> &node : x.nodes)
-      for (double &u : node.u)
+      for (double &u : dealii::make_array_view(node.u))
         u = 1e-9 * x.random();
     double eigenvalue = 0.;
     for (unsigned int k = 0; k < 3000; ++k)
@@ -56,7 +56,7 @@ namespace
         }
       eigenvalue = std::sqrt(after / before);
       for (NodeRecord<2> &node : x.nodes)
-        for (double &u : node.u)
+        for (double &u : dealii::make_array_view(node.u))
           u *= 1e-9 / std::sqrt(after);
     }
     return eigenvalue;

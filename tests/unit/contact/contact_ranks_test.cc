@@ -159,7 +159,7 @@ namespace
     {
       double largest = 0., error = 0.;
       for (const dealii::Tensor<1, 2> &f : whole.force)
-        for (const double x : f.v)
+        for (const double x : dealii::make_array_view(f))
           largest = std::max(largest, std::abs(x));
       for (unsigned int i = 0; i < twin.size(); ++i)
         for (unsigned int d = 0; d < 2; ++d)

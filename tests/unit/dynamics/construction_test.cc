@@ -202,7 +202,7 @@ TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-1e-4, 1e-4);
     for (NodeRecord<2> &node : run.state.nodes)
-      for (double &u : node.u)
+      for (double &u : dealii::make_array_view(node.u))
         u = uniform(random);
     const auto before = forces(run.model, run.state);
     Construction construction(run.model, { change });

@@ -624,7 +624,7 @@ TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)
   }
   for (unsigned int n = 0; n < flat.n_vertices(); ++n)
   {
-    const double *v = a.state.velocity[n].v, *w = b.state.velocity[n].v;
+    const dealii::Tensor<1, 2> &v = a.state.velocity[n], &w = b.state.velocity[n];
     EXPECT_NEAR(w[0], c * v[0] - s * v[1], 1e-14);
     EXPECT_NEAR(w[1], s * v[0] + c * v[1], 1e-14);
   }

@@ -151,7 +151,7 @@ TEST(FreeField, HoldsTheStressThatItFinds)
   run.begin(stage_with({ "base", "gravity", "left", "right" }));
   run.step(500);
   for (unsigned int n = 0; n < mesh.n_vertices(); ++n)
-    for (const double u : run.state.nodes[n].u)
+    for (const double u : dealii::make_array_view(run.state.nodes[n].u))
       EXPECT_LT(std::abs(u), 1e-13);
 }
 

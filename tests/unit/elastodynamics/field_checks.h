@@ -4,6 +4,7 @@
 #ifndef quoin_field_checks_h
 #define quoin_field_checks_h
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/elastodynamics/elastic_medium.h>
 #include <quoin/elastodynamics/gauss_legendre.h>
 #include <quoin/elastodynamics/incident_field.h>
@@ -16,23 +17,23 @@ namespace quoin
    */
   inline double motion_residual(const IncidentField &field,
                                 const ElasticMedium &medium,
-                                const Eigen::Vector2d &x, const double t,
+                                const dealii::Point<2> &x, const double t,
                                 const double h, const double dt)
   {
-    const Boundary square   = Boundary::polygon({ { x.x() - h, x.y() - h },
-                                                  { x.x() + h, x.y() - h },
-                                                  { x.x() + h, x.y() + h },
-                                                  { x.x() - h, x.y() + h } },
+    const Boundary square   = Boundary::polygon({ { x[0] - h, x[1] - h },
+                                                  { x[0] + h, x[1] - h },
+                                                  { x[0] + h, x[1] + h },
+                                                  { x[0] - h, x[1] + h } },
                                                 2. * h, false);
     const Eigen::VectorXd p = field.mean_tractions(square, t - dt, t + dt);
-    Eigen::Vector2d force   = Eigen::Vector2d::Zero();
+    dealii::Tensor<1, 2> force;
     for (unsigned e = 0; e < 4; ++e)
-      force += 2. * h * p.segment<2>(2 * e);
-    const Eigen::Vector2d acceleration
+      force += 2. * h * vector_at(p, e);
+    const dealii::Tensor<1, 2> acceleration
         = (field.displacement(x, t + dt) - 2. * field.displacement(x, t)
            + field.displacement(x, t - dt))
           / (dt * dt);
-    const Eigen::Vector2d wanted = medium.density * 4. * h * h * acceleration;
+    const dealii::Tensor<1, 2> wanted = medium.density * 4. * h * h * acceleration;
     return (force - wanted).norm() / wanted.norm();
   }
 
@@ -42,24 +43,27 @@ namespace quoin
    */
   inline double traction_residual(const IncidentField &field,
                                   const ElasticMedium &medium,
-                                  const Eigen::Vector2d &x,
-                                  const Eigen::Vector2d &n, const double t0,
+                                  const dealii::Point<2> &x,
+                                  const dealii::Tensor<1, 2> &n, const double t0,
                                   const double t1, const double h)
   {
     const GaussRule &rule = gauss_legendre(20);
-    Eigen::Vector2d mean  = Eigen::Vector2d::Zero();
+    dealii::Tensor<1, 2> mean;
     for (std::size_t g = 0; g < rule.points.size(); ++g)
     {
       const double t = t0 + rule.points[g] * (t1 - t0);
-      Eigen::Matrix2d gradient;
+      dealii::Tensor<2, 2> slopes; // row j: derivative by x_j
       for (unsigned j = 0; j < 2; ++j)
-        gradient.col(j)
-            = (field.displacement(x + h * Eigen::Vector2d::Unit(j), t)
-               - field.displacement(x - h * Eigen::Vector2d::Unit(j), t))
-              / (2. * h);
+      {
+        const dealii::Tensor<1, 2> step
+            = h * dealii::Point<2>::unit_vector(j);
+        slopes[j] = (field.displacement(x + step, t)
+                     - field.displacement(dealii::Point<2>(x - step), t))
+                    / (2. * h);
+      }
       mean += rule.weights[g]
-              * (medium.lambda() * gradient.trace() * n
-                 + medium.mu() * (gradient + gradient.transpose()) * n);
+              * (medium.lambda() * trace(slopes) * n
+                 + medium.mu() * (slopes + transpose(slopes)) * n);
     }
     return (field.mean_traction(x, n, t0, t1) - mean).norm() / mean.norm();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/elastodynamics/laplace_kernels.h>
 #include <quoin/elastodynamics/time_kernels.h>
@@ -19,7 +20,7 @@ namespace
 {
   const ElasticMedium medium{ 2., std::sqrt(3.), 1. };
 
-  const Eigen::Vector2d normal(std::cos(0.37), std::sin(0.37));
+  const dealii::Point<2> normal(std::cos(0.37), std::sin(0.37));
 
   /** int_0^oo e^{-sT} f(T) dT with f of the time kernels. */
   template <typename Kernel>
@@ -49,7 +50,7 @@ TEST(LaplaceKernels, are_transforms_of_time_kernels)
                            Complex(0.05, 0.02) })
   {
     const LaplaceKernels kernels(medium, s);
-    const Eigen::Vector2d d(0.6, -0.35);
+    const dealii::Point<2> d(0.6, -0.35);
     const auto U = laplace_transform(
         s, d.norm(),
         [&](const double t) { return time_kernels(medium, t, d, normal).A; });
@@ -68,13 +69,13 @@ TEST(LaplaceKernels, satisfy_damped_equation_of_motion)
   const RayleighDamping damping{ 0.7, 0.2 };
   const Complex s(0.8, 1.9);
   const LaplaceKernels kernels(medium, s, damping);
-  const Eigen::Vector2d d(0.5, 0.4);
+  const dealii::Point<2> d(0.5, 0.4);
   // div sigma from the tractions on the planes of the axes.
   const double h              = 1e-3;
   Eigen::Matrix2cd divergence = Eigen::Matrix2cd::Zero();
   for (const unsigned k : { 0u, 1u })
   {
-    const Eigen::Vector2d e = Eigen::Vector2d::Unit(k);
+    const dealii::Tensor<1, 2> e = dealii::Point<2>::unit_vector(k);
     divergence += (8.
                        * (kernels.traction(d + h * e, e)
                           - kernels.traction(d - h * e, e))
@@ -93,12 +94,12 @@ TEST(LaplaceKernels, traction_is_of_the_damped_stress)
   const RayleighDamping damping{ 0.7, 0.2 };
   const Complex s(0.8, 1.9);
   const LaplaceKernels kernels(medium, s, damping);
-  const Eigen::Vector2d d(0.5, 0.4);
+  const dealii::Point<2> d(0.5, 0.4);
   const double h = 1e-3;
   Eigen::Matrix2cd gradient[2]; // of U, by direction of the derivative
   for (const unsigned k : { 0u, 1u })
   {
-    const Eigen::Vector2d e = Eigen::Vector2d::Unit(k);
+    const dealii::Tensor<1, 2> e = dealii::Point<2>::unit_vector(k);
     gradient[k]             = (8.
                        * (kernels.displacement(d + h * e)
                           - kernels.displacement(d - h * e))
@@ -123,10 +124,10 @@ TEST(LaplaceKernels, traction_is_of_the_damped_stress)
 
 TEST(LaplaceKernels, static_limit)
 {
-  const Eigen::Vector2d d(0.6, -0.35);
+  const dealii::Point<2> d(0.6, -0.35);
   const double r = d.norm(), s = 1e-7;
   const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
-  const Eigen::Vector2d e    = d / r;
+  const dealii::Tensor<1, 2> e    = d / r;
   const LaplaceKernels kernels(medium, s);
   EXPECT_LT(
       (kernels.traction(d, normal) - static_traction_kernel(medium, d, normal))
@@ -139,7 +140,7 @@ TEST(LaplaceKernels, static_limit)
   const auto kelvin = [&](const double r)
   {
     return Eigen::Matrix2d(
-        factor * (-(3. - 4. * nu) * std::log(r) * unit + e * e.transpose()));
+        factor * (-(3. - 4. * nu) * std::log(r) * unit + dyad(e, e)));
   };
   const Eigen::Matrix2cd difference
       = kernels.displacement(d) - kernels.displacement(7. * d);
@@ -148,7 +149,7 @@ TEST(LaplaceKernels, static_limit)
 
 TEST(LaplaceKernels, are_real_analytic_and_symmetric)
 {
-  const Eigen::Vector2d d(0.6, -0.35);
+  const dealii::Point<2> d(0.6, -0.35);
   const Complex s(0.3, 2.);
   const RayleighDamping damping{ 0.4, 0.1 };
   const LaplaceKernels kernels(medium, s, damping);

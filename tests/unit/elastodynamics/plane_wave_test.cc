@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/elastodynamics/gauss_legendre.h>
@@ -56,27 +58,27 @@ namespace
 
 TEST(PlaneWave, PropagatesAlongItsDirectionWithItsSpeed)
 {
-  const Eigen::Vector2d direction(std::sin(0.7), std::cos(0.7));
-  const Eigen::Vector2d clockwise(std::cos(0.7), -std::sin(0.7));
-  const Eigen::Vector2d x(3., 5.);
-  const double t = 0.1 + x.dot(direction) / medium.c2;
+  const dealii::Point<2> direction(std::sin(0.7), std::cos(0.7));
+  const dealii::Point<2> clockwise(std::cos(0.7), -std::sin(0.7));
+  const dealii::Point<2> x(3., 5.);
+  const double t = 0.1 + (x * direction) / medium.c2;
 
   const PlaneWave p(medium, PlaneWave::Type::P, false, 0.7, wavelet);
   const PlaneWave sv(medium, PlaneWave::Type::SV, false, 0.7, wavelet);
   const double f = wavelet(0.1);
   EXPECT_LT((sv.displacement(x, t) - f * clockwise).norm(), 1e-12 * f);
-  const double delay = x.dot(direction) / medium.c1;
+  const double delay = (x * direction) / medium.c1;
   EXPECT_LT((p.displacement(x, 0.1 + delay) - f * direction).norm(), 1e-12 * f);
 }
 
 TEST(PlaneWave, ImpedanceOnWavefrontsIsDensityTimesSpeed)
 {
-  const Eigen::Vector2d direction(std::sin(-0.4), std::cos(-0.4));
-  const Eigen::Vector2d clockwise(std::cos(-0.4), -std::sin(-0.4));
+  const dealii::Point<2> direction(std::sin(-0.4), std::cos(-0.4));
+  const dealii::Point<2> clockwise(std::cos(-0.4), -std::sin(-0.4));
   const double rate = (wavelet(0.12) - wavelet(0.1)) / 0.02;
   const PlaneWave p(medium, PlaneWave::Type::P, false, -0.4, wavelet);
   const PlaneWave sv(medium, PlaneWave::Type::SV, false, -0.4, wavelet);
-  const Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  const dealii::Point<2> origin;
   const double zp              = medium.density * medium.c1;
   const double zs              = medium.density * medium.c2;
   EXPECT_LT(
@@ -91,7 +93,7 @@ TEST(PlaneWave, ImpedanceOnWavefrontsIsDensityTimesSpeed)
 
 TEST(PlaneWave, SurfaceOfHalfPlaneIsTractionFree)
 {
-  const Eigen::Vector2d up(0., 1.);
+  const dealii::Point<2> up(0., 1.);
   const double scale = medium.density * medium.c1 * wavelet(0.1) / 0.01;
   for (const Incidence &i : incidences)
   {
@@ -110,10 +112,10 @@ TEST(PlaneWave, SurfaceMovesTwiceAtVerticalIncidence)
   const auto p   = wave(PlaneWave::Type::P, true, 0.);
   const auto sv  = wave(PlaneWave::Type::SV, true, 0.);
   EXPECT_LT(
-      (p.displacement({ 2., 0. }, 0.1) - Eigen::Vector2d(0., 2. * f)).norm(),
+      (p.displacement({ 2., 0. }, 0.1) - dealii::Point<2>(0., 2. * f)).norm(),
       1e-12 * f);
   EXPECT_LT(
-      (sv.displacement({ 2., 0. }, 0.1) - Eigen::Vector2d(2. * f, 0.)).norm(),
+      (sv.displacement({ 2., 0. }, 0.1) - dealii::Point<2>(2. * f, 0.)).norm(),
       1e-12 * f);
 }
 
@@ -127,7 +129,7 @@ TEST(PlaneWave, ReflectionConservesEnergy)
     double sum = 0., scale = 0.;
     for (const PlaneWave::Component &c : free_field.components())
     {
-      const double flux = c.amplitude.squaredNorm() * c.slowness.y().real()
+      const double flux = c.amplitude.squaredNorm() * c.slowness[1].real()
                           / c.slowness.squaredNorm();
       sum += flux;
       scale += std::abs(flux);
@@ -143,24 +145,24 @@ TEST(PlaneWave, SatisfiesTheEquationOfMotion)
   for (const Incidence &i : incidences)
   {
     const PlaneWave free_field = wave(i.type, true, i.degrees);
-    const Eigen::Vector2d x(1.5, -2.);
+    const dealii::Point<2> x(1.5, -2.);
     const double dt         = 1e-4;
-    const Boundary square   = Boundary::polygon({ { x.x() - h, x.y() - h },
-                                                  { x.x() + h, x.y() - h },
-                                                  { x.x() + h, x.y() + h },
-                                                  { x.x() - h, x.y() + h } },
+    const Boundary square   = Boundary::polygon({ { x[0] - h, x[1] - h },
+                                                  { x[0] + h, x[1] - h },
+                                                  { x[0] + h, x[1] + h },
+                                                  { x[0] - h, x[1] + h } },
                                                 2. * h, false);
     const Eigen::VectorXd p = free_field.mean_tractions(square, t - dt, t + dt);
-    Eigen::Vector2d force   = Eigen::Vector2d::Zero();
+    dealii::Tensor<1, 2> force;
     for (unsigned e = 0; e < 4; ++e)
-      force += 2. * h * p.segment<2>(2 * e);
+      force += 2. * h * vector_at(p, e);
     const double step = 2e-3;
-    const Eigen::Vector2d acceleration
+    const dealii::Tensor<1, 2> acceleration
         = (free_field.displacement(x, t + step)
            - 2. * free_field.displacement(x, t)
            + free_field.displacement(x, t - step))
           / (step * step);
-    const Eigen::Vector2d wanted = medium.density * 4. * h * h * acceleration;
+    const dealii::Tensor<1, 2> wanted = medium.density * 4. * h * h * acceleration;
     EXPECT_LT((force - wanted).norm(), 3e-3 * wanted.norm()) << i.degrees;
   }
 }
@@ -171,29 +173,31 @@ TEST(PlaneWave, MeanTractionIsTheMeanOfTheTraction)
   const PlaneWave free_field = wave(PlaneWave::Type::SV, true, 25.);
   const PlaneWave rates(medium, PlaneWave::Type::SV, true, 25. * degree,
                         wavelet_rate);
-  const Eigen::Vector2d x(2., -3.), n(0.6, 0.8);
+  const dealii::Point<2> x(2., -3.), n(0.6, 0.8);
   const double t0 = 0.2, t1 = 0.29, h = 1e-3;
   const GaussRule &rule = gauss_legendre(20);
-  Eigen::Vector2d mean  = Eigen::Vector2d::Zero();
+  dealii::Tensor<1, 2> mean;
   for (std::size_t g = 0; g < rule.points.size(); ++g)
   {
     const double t = t0 + rule.points[g] * (t1 - t0);
     // Strain by central differences of the displacement field.
-    Eigen::Matrix2d gradient;
+    dealii::Tensor<2, 2> slopes; // row j: derivative by x_j
     for (unsigned j = 0; j < 2; ++j)
-      gradient.col(j)
-          = (free_field.displacement(x + h * Eigen::Vector2d::Unit(j), t)
-             - free_field.displacement(x - h * Eigen::Vector2d::Unit(j), t))
-            / (2. * h);
+    {
+      const dealii::Tensor<1, 2> step = h * dealii::Point<2>::unit_vector(j);
+      slopes[j] = (free_field.displacement(x + step, t)
+                   - free_field.displacement(dealii::Point<2>(x - step), t))
+                  / (2. * h);
+    }
     mean += rule.weights[g]
-            * (medium.lambda() * gradient.trace() * n
-               + medium.mu() * (gradient + gradient.transpose()) * n);
+            * (medium.lambda() * trace(slopes) * n
+               + medium.mu() * (slopes + transpose(slopes)) * n);
   }
-  const Eigen::Vector2d value = free_field.mean_traction(x, n, t0, t1);
+  const dealii::Tensor<1, 2> value = free_field.mean_traction(x, n, t0, t1);
   EXPECT_LT((value - mean).norm(), 1e-5 * mean.norm());
 
   // The rate of the displacement is the field of the signal's rate.
-  const Eigen::Vector2d rate = (free_field.displacement(x, t1 + h)
+  const dealii::Tensor<1, 2> rate = (free_field.displacement(x, t1 + h)
                                 - free_field.displacement(x, t1 - h))
                                / (2. * h);
   EXPECT_LT((rate - rates.displacement(x, t1)).norm(), 2e-3 * rate.norm());
@@ -210,17 +214,17 @@ TEST(PlaneWave, MeansOverElements)
   for (unsigned e = 0; e < 2; ++e)
   {
     const BoundaryElement &element = boundary.elements[e];
-    Eigen::Vector2d mean_u = Eigen::Vector2d::Zero(), mean_p = mean_u;
+    dealii::Tensor<1, 2> mean_u, mean_p = mean_u;
     for (std::size_t g = 0; g < rule.points.size(); ++g)
     {
-      const Eigen::Vector2d x
+      const dealii::Point<2> x
           = element.a + rule.points[g] * (element.b - element.a);
       mean_u += rule.weights[g] * free_field.displacement(x, 0.2);
       mean_p += rule.weights[g]
                 * free_field.mean_traction(x, element.normal(), 0.2, 0.25);
     }
-    EXPECT_LT((u.segment<2>(2 * e) - mean_u).norm(), 1e-6 * mean_u.norm());
-    EXPECT_LT((p.segment<2>(2 * e) - mean_p).norm(), 1e-6 * mean_p.norm());
+    EXPECT_LT((vector_at(u, e) - mean_u).norm(), 1e-6 * mean_u.norm());
+    EXPECT_LT((vector_at(p, e) - mean_p).norm(), 1e-6 * mean_p.norm());
   }
 }
 
@@ -268,12 +272,12 @@ TEST(PlaneWave, BeyondTheCriticalAngleItIsTheHarmonicSolution)
     for (const double y : { 0., -0.3, -2., -7.7 })
       for (const double t : { 2., 2.531, 3.017 })
       {
-        Eigen::Vector2d wanted = Eigen::Vector2d::Zero();
+        dealii::Tensor<1, 2> wanted;
         for (unsigned k = 0; k < 3; ++k)
-          wanted += (d[k]
-                     * std::exp(Complex(0., omega)
-                                * (t - s[k][0] * 4. - s[k][1] * y)))
-                        .real();
+          wanted += to_tensor((d[k]
+                               * std::exp(Complex(0., omega)
+                                          * (t - s[k][0] * 4. - s[k][1] * y)))
+                                  .real());
         EXPECT_LT((field.displacement({ 4., y }, t) - wanted).norm(), 2e-5)
             << degrees << ' ' << y;
       }
@@ -293,9 +297,9 @@ TEST(PlaneWave, BeyondTheCriticalAngleItIsAFreeField)
     const PlaneWave field(medium, PlaneWave::Type::SV, true, degrees * degree,
                           ricker, range);
     const double scale
-        = field.mean_traction({ 0., -1. }, { 1., 0. }, 1.02, 1.021).norm();
+        = field.mean_traction({ 0., -1. }, dealii::Point<2>(1., 0.), 1.02, 1.021).norm();
     for (double t = 0.8; t < 1.3; t += 0.05)
-      EXPECT_LT(field.mean_traction({ 3., 0. }, { 0., 1. }, t, t + 1e-3).norm(),
+      EXPECT_LT(field.mean_traction({ 3., 0. }, dealii::Point<2>(0., 1.), t, t + 1e-3).norm(),
                 1e-9 * scale)
           << degrees;
     for (const double y : { -0.5, -4. })
@@ -303,7 +307,7 @@ TEST(PlaneWave, BeyondTheCriticalAngleItIsAFreeField)
       EXPECT_LT(motion_residual(field, medium, { 1.5, y }, 1.02, 0.02, 5e-4),
                 2e-3)
           << degrees << ' ' << y;
-      EXPECT_LT(traction_residual(field, medium, { 1.5, y }, { 0.6, 0.8 }, 1.,
+      EXPECT_LT(traction_residual(field, medium, { 1.5, y }, dealii::Point<2>(0.6, 0.8), 1.,
                                   1.01, 1e-3),
                 1e-5)
           << degrees << ' ' << y;

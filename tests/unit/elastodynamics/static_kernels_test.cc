@@ -56,7 +56,7 @@ TEST_P(StaticMatricesOf, are_limits_of_laplace_matrices)
   EXPECT_LT((laplace.H.real() - matrices.H).lpNorm<Eigen::Infinity>(), 1e-10);
 
   // G but for a constant times the length of the column's element.
-  const Eigen::Vector2d d(0.3, 0.4);
+  const dealii::Point<2> d(0.3, 0.4);
   const Eigen::Matrix2d constant
       = (LaplaceKernels(medium, 1e-7).displacement(d).real()
          - static_displacement_kernel(medium, d));
@@ -104,7 +104,7 @@ TEST(StaticMatrices, reference_length_adds_a_constant)
   const Boundary boundary = rectangle(false);
   const auto one = static_matrices(boundary, medium, Projection::galerkin);
   const auto ten = static_matrices(boundary, medium, Projection::galerkin, 10.);
-  const Eigen::Vector2d d(0.3, 0.4);
+  const dealii::Point<2> d(0.3, 0.4);
   const double constant = (static_displacement_kernel(medium, d, 10.)
                            - static_displacement_kernel(medium, d))(0, 0);
   EXPECT_NEAR(ten.G(0, 6) - one.G(0, 6),

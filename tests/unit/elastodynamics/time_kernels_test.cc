@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/elastodynamics/time_kernels.h>
 
 #include <gtest/gtest.h>
@@ -9,14 +10,13 @@
 
 using namespace quoin;
 using Eigen::Matrix2d;
-using Eigen::Vector2d;
 
 namespace
 {
   const ElasticMedium medium = ElasticMedium::from_young(2., 2.5, 0.25);
 
-  TimeKernels at(const double time, const Vector2d &distance,
-                 const Vector2d &normal = Vector2d(0.6, 0.8))
+  TimeKernels at(const double time, const dealii::Tensor<1, 2> &distance,
+                 const dealii::Tensor<1, 2> &normal = dealii::Point<2>(0.6, 0.8))
   {
     return time_kernels(medium, time, distance, normal);
   }
@@ -38,7 +38,7 @@ TEST(ElasticMedium, from_young)
 
 TEST(TimeKernels, are_zero_before_arrival)
 {
-  const Vector2d distance(3., -4.);
+  const dealii::Point<2> distance(3., -4.);
   EXPECT_EQ(norm(at(5. / medium.c1, distance).A), 0.);
   EXPECT_EQ(norm(at(5. / medium.c1, distance).B), 0.);
   EXPECT_GT(norm(at(5.001 / medium.c1, distance).A), 0.);
@@ -53,11 +53,11 @@ TEST(TimeKernels, derivative_is_the_impulse_response)
   unsigned n_checked = 0;
   for (unsigned k = 0; k < 100; ++k)
   {
-    const Vector2d x(u(random), u(random));
+    const dealii::Point<2> x(u(random), u(random));
     const double r    = x.norm();
     const double T    = r / medium.c1 * (1.2 + 2. * std::abs(u(random)));
     const double h    = 1e-4 * r;
-    const Vector2d e  = x / r;
+    const dealii::Tensor<1, 2> e  = x / r;
     Matrix2d expected = Matrix2d::Zero();
     bool near_front   = false;
     for (const double c : { medium.c1, medium.c2 })
@@ -67,7 +67,7 @@ TEST(TimeKernels, derivative_is_the_impulse_response)
         continue;
       const double R = std::sqrt(T * T - r * r / (c * c));
       const double s = c == medium.c1 ? 1. : -1.;
-      expected += (s * (2. * e * e.transpose() - Matrix2d::Identity())
+      expected += (s * (2. * dyad(e, e) - Matrix2d::Identity())
                        * (R + T * T / R) / (r * r)
                    + Matrix2d::Identity() / (c * c * R))
                   / (4. * M_PI * medium.density);
@@ -91,10 +91,10 @@ TEST(TimeKernels, tractions_belong_to_the_displacements)
   unsigned n_checked = 0;
   for (unsigned k = 0; k < 200; ++k)
   {
-    const Vector2d x(u(random), u(random));
+    const dealii::Point<2> x(u(random), u(random));
     const double r     = x.norm();
     const double angle = 4. * u(random);
-    const Vector2d n(std::cos(angle), std::sin(angle));
+    const dealii::Point<2> n(std::cos(angle), std::sin(angle));
     const double T = r / medium.c1 * (1. + 4. * std::abs(u(random)));
     if (std::abs(medium.c1 * T - r) < 0.1 * r
         || std::abs(medium.c2 * T - r) < 0.1 * r)
@@ -105,7 +105,7 @@ TEST(TimeKernels, tractions_belong_to_the_displacements)
     Matrix2d gradient[2]; // derivative of A in direction k
     for (unsigned i = 0; i < 2; ++i)
     {
-      const Vector2d step = h * Vector2d::Unit(i);
+      const dealii::Tensor<1, 2> step = h * dealii::Point<2>::unit_vector(i);
       gradient[i]         = (8. * (at(T, x + step).A - at(T, x - step).A)
                      - (at(T, x + 2. * step).A - at(T, x - 2. * step).A))
                     / (12. * h);
@@ -131,22 +131,22 @@ TEST(TimeKernels, tractions_belong_to_the_displacements)
 
 TEST(TimeKernels, static_limit)
 {
-  const Vector2d x(0.3, -0.5), n(0.6, 0.8);
+  const dealii::Point<2> x(0.3, -0.5), n(0.6, 0.8);
   const Matrix2d expected = static_traction_kernel(medium, x, n);
   const double T          = 1e6;
   EXPECT_LT(norm(at(T, x, n).B / T - expected), 1e-11 * norm(expected));
 
   // Kelvin's displacements but for a rigid motion: their difference between
   // two points.
-  const auto kelvin = [](const Vector2d &y) -> Matrix2d
+  const auto kelvin = [](const dealii::Tensor<1, 2> &y) -> Matrix2d
   {
     const double nu  = medium.poisson();
-    const Vector2d e = y.normalized();
+    const dealii::Tensor<1, 2> e = y / y.norm();
     return ((4. * nu - 3.) * std::log(y.norm()) * Matrix2d::Identity()
-            + e * e.transpose())
+            + dyad(e, e))
            / (8. * M_PI * medium.mu() * (1. - nu));
   };
-  const Vector2d y(2., 1.);
+  const dealii::Point<2> y(2., 1.);
   const Matrix2d difference = kelvin(y) - kelvin(x);
   EXPECT_LT(norm(at(T, y).A - at(T, x).A - difference),
             1e-11 * norm(difference));

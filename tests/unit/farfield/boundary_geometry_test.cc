@@ -14,7 +14,6 @@ using namespace quoin;
 
 namespace
 {
-  using Eigen::Vector2d;
 
   BoundaryCurveParameters circle(const double radius, const unsigned int n)
   {
@@ -64,7 +63,7 @@ namespace
   {
     double sum = 0.;
     for (const BoundaryElement &e : boundary.elements)
-      sum += 0.5 * (e.a.x() * e.b.y() - e.a.y() * e.b.x());
+      sum += 0.5 * (e.a[0] * e.b[1] - e.a[1] * e.b[0]);
     return sum;
   }
 
@@ -126,7 +125,7 @@ TEST(BoundaryGeometry, Circles)
   EXPECT_EQ(boundary.n_elements(), 26u); // 25.1 from the length
   EXPECT_GT(area(boundary), 0.);
   EXPECT_NEAR(
-      std::atan2(boundary.elements[0].a.y(), boundary.elements[0].a.x()), 0.1,
+      std::atan2(boundary.elements[0].a[1], boundary.elements[0].a[0]), 0.1,
       1e-14);
 }
 
@@ -160,7 +159,7 @@ TEST(BoundaryGeometry, LinesAreGraded)
       << "no fewer would do";
   surface.domain = DomainSide::right;
   b              = make({ surface });
-  EXPECT_EQ(b.elements.front().a, Vector2d(10., 0.));
+  EXPECT_EQ(b.elements.front().a, dealii::Point<2>(10., 0.));
   EXPECT_GT(b.elements.front().length(), b.elements.back().length());
 }
 
@@ -218,10 +217,10 @@ TEST(BoundaryGeometry, CurvesOfAMesh)
   EXPECT_EQ(b.n_elements(), 12u) << "three on each straight side";
   EXPECT_NEAR(area(b), -4., 1e-14);
   b = make({ curves({ "lower" }, DomainSide::left) }, 0., mesh);
-  EXPECT_EQ(b.elements.front().a, Vector2d(0., 0.));
-  EXPECT_EQ(b.elements.back().b, Vector2d(2., 0.));
+  EXPECT_EQ(b.elements.front().a, dealii::Point<2>(0., 0.));
+  EXPECT_EQ(b.elements.back().b, dealii::Point<2>(2., 0.));
   b = make({ curves({ "lower" }, DomainSide::right) }, 0., mesh);
-  EXPECT_EQ(b.elements.front().a, Vector2d(2., 0.));
+  EXPECT_EQ(b.elements.front().a, dealii::Point<2>(2., 0.));
 }
 
 TEST(BoundaryGeometry, BlocksThatTouchMakeOneCurve)

@@ -107,7 +107,7 @@ TEST(BoundaryParameters, All)
   EXPECT_EQ(hole.polygon, CirclePolygon::equal_area);
   EXPECT_EQ(hole.centre[1], -2.);
   EXPECT_TRUE(hole.traction_is_given[0]);
-  EXPECT_NEAR(hole.pressure(Eigen::Vector2d(5., 6.), 0.5), 1e6 * std::sin(0.5),
+  EXPECT_NEAR(hole.pressure(dealii::Point<2>(5., 6.), 0.5), 1e6 * std::sin(0.5),
               1e-9);
   EXPECT_FALSE(hole.pressure.depends_on_place());
   EXPECT_TRUE(hole.pressure.depends_on_time());
@@ -118,7 +118,7 @@ TEST(BoundaryParameters, All)
   EXPECT_EQ(surface.points[0][0], 9.);
   EXPECT_FALSE(surface.traction_is_given[0]);
   EXPECT_TRUE(surface.traction_is_given[1]);
-  EXPECT_NEAR(surface.value[0](Eigen::Vector2d(3., 0.), 0.5), 10., 1e-12);
+  EXPECT_NEAR(surface.value[0](dealii::Point<2>(3., 0.), 0.5), 10., 1e-12);
   EXPECT_TRUE(surface.value[0].depends_on_place());
   EXPECT_TRUE(surface.value[0].depends_on_time());
   EXPECT_FALSE(surface.value[1].depends_on_time());
@@ -147,15 +147,15 @@ TEST(BoundaryParameters, BoundaryValues)
   for (unsigned int e = 0; e < geometry.owner.size(); ++e)
   {
     const BoundaryElement &element = geometry.boundary.elements[e];
-    const double x = element.middle().x(), y = element.middle().y();
+    const double x = element.middle()[0], y = element.middle()[1];
     if (geometry.owner[e] == 0)
     {
       EXPECT_TRUE(given.traction_is_given()[2 * e]);
       // What is switched on at t = 0 counts in full.
-      EXPECT_NEAR(first[2 * e + 1], -2. * element.normal().y(), 1e-14);
+      EXPECT_NEAR(first[2 * e + 1], -2. * element.normal()[1], 1e-14);
       const double mean_square
-          = x * x + std::pow(element.b.x() - element.a.x(), 2) / 12.;
-      const double pressure = -2. * element.normal().x();
+          = x * x + std::pow(element.b[0] - element.a[0], 2) / 12.;
+      const double pressure = -2. * element.normal()[0];
       EXPECT_NEAR(second[2 * e], mean_square * 0.2 + pressure, 1e-13);
       EXPECT_NEAR(end[2 * e], mean_square * 0.3 + pressure, 1e-13);
     }

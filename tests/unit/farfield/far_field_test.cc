@@ -33,7 +33,7 @@ namespace
 
     HeavyBlock()
     {
-      std::vector<Eigen::Vector2d> points;
+      std::vector<dealii::Point<2>> points;
       for (unsigned int i = 0; i <= n; ++i)
         points.emplace_back(element * i, 0.);
       FarFieldDomain domain;
@@ -88,8 +88,7 @@ namespace
         before.node     = node;
         before.mass     = 1e15;
         before.velocity = velocity;
-        before.displacement
-            = { { state.nodes[node].u[0], state.nodes[node].u[1] } };
+        before.displacement = state.nodes[node].u;
         before.owner[0] = before.owner[1] = far.get();
         captured.push_back(before);
       }
@@ -159,7 +158,7 @@ TEST(FarField, AWaveThatTheBlocksFollowIsNotScattered)
       });
   for (unsigned int i = 0; i < 3; ++i)
   {
-    block.move({ { 0., 0.1 } });
+    block.move(dealii::Point<2>(0., 0.1));
     EXPECT_NEAR(block.far->resultant()[1], -7e3 * length * thickness, 1e-3);
   }
   EXPECT_NEAR(block.state.energy.radiated + block.state.pending.radiated, 0.,

@@ -63,7 +63,7 @@ namespace
   Boundary above(const std::vector<double> &x)
   {
     Boundary boundary;
-    std::vector<Eigen::Vector2d> points;
+    std::vector<dealii::Point<2>> points;
     for (const double place : x)
       points.emplace_back(place, 0.);
     boundary.add_curve(points, false);
@@ -82,12 +82,12 @@ TEST(InterfaceTransfer, means_of_linear_motion)
       [&](const unsigned int k)
       {
         const double x = top.nodes->point(transfer.nodes()[k])[0];
-        return std::array<double, 2>{ { 2. - x, 3. * x } };
+        return dealii::Point<2>(2. - x, 3. * x);
       },
       means);
   for (unsigned int e = 0; e < 3; ++e)
   {
-    const double middle = boundary.elements[e].middle().x();
+    const double middle = boundary.elements[e].middle()[0];
     EXPECT_NEAR(means[2 * e], 2. - middle, 1e-14);
     EXPECT_NEAR(means[2 * e + 1], 3. * middle, 1e-14);
   }
@@ -101,7 +101,7 @@ TEST(InterfaceTransfer, virtual_work)
   const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.nodes, top.faces);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1., 1.);
-  std::vector<std::array<double, 2>> v(transfer.nodes().size());
+  std::vector<dealii::Tensor<1, 2>> v(transfer.nodes().size());
   for (auto &node : v)
     node = { { uniform(random), uniform(random) } };
   Eigen::VectorXd p(6), means;
@@ -110,7 +110,7 @@ TEST(InterfaceTransfer, virtual_work)
   transfer.gather([&](const unsigned int k) { return v[k]; }, means);
 
   double on_nodes = 0., on_elements = 0.;
-  std::array<double, 2> resultant{};
+  dealii::Tensor<1, 2> resultant;
   for (unsigned int k = 0; k < v.size(); ++k)
     for (unsigned int d = 0; d < 2; ++d)
     {
@@ -146,7 +146,7 @@ TEST(InterfaceTransfer, congruence)
         [&](const unsigned int k)
         {
           const double f = diagonal[k] * transfer.force(k, p)[0];
-          return std::array<double, 2>{ { f, 0. } };
+          return dealii::Point<2>(f, 0.);
         },
         means);
     for (unsigned int i = 0; i < 3; ++i)
@@ -163,7 +163,7 @@ TEST(InterfaceTransfer, chords)
   mesh.face_names         = { "", "circle" };
   mesh.block_first_cell   = { 0, n };
   mesh.block_first_vertex = { 0, n + 1 };
-  std::vector<Eigen::Vector2d> points;
+  std::vector<dealii::Point<2>> points;
   for (unsigned int k = 0; k < n; ++k)
   {
     const double angle = 2. * M_PI * k / n;
@@ -184,7 +184,7 @@ TEST(InterfaceTransfer, chords)
   Eigen::VectorXd means;
   transfer.gather(
       [](const unsigned int) {
-        return std::array<double, 2>{ { 1., -2. } };
+        return dealii::Point<2>(1., -2.);
       },
       means);
   for (unsigned int e = 0; e < 8; ++e)

@@ -79,7 +79,7 @@ namespace
       {
         const double x  = mesh.vertices[v][0] - centre[0];
         const double y  = mesh.vertices[v][1] - centre[1];
-        const double *u = configuration.nodes[v].u;
+        const dealii::Tensor<1, 2> &u = configuration.nodes[v].u;
         EXPECT_NEAR(u[0], motion[0] + c * x - s * y - x, 1e-14);
         EXPECT_NEAR(u[1], motion[1] + s * x + c * y - y, 1e-14);
       }

@@ -53,7 +53,7 @@ namespace
       for (unsigned int k = 0; k < 2; ++k)
       {
         const auto &[opening, slip] = gaps[k];
-        double *u                   = nodes[joints.segments()[0].upper[k]].u;
+        dealii::Tensor<1, 2> &u = nodes[joints.segments()[0].upper[k]].u;
         u[0] += c * slip - s * opening;
         u[1] += s * slip + c * opening;
       }

@@ -175,7 +175,7 @@ namespace
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> uniform(-size, size);
       for (NodeRecord<3> &node : state.nodes)
-        for (double &u : node.u)
+        for (double &u : dealii::make_array_view(node.u))
           u += uniform(random);
     }
   };
@@ -302,7 +302,7 @@ TEST(SpaceJoints, RigidRotationTurnsForcesAndNothingElse)
     double size = 0., difference = 0.;
     for (unsigned int i = 0; i < still.nodes.n_local(); ++i)
     {
-      const auto &a = still.force[i].v, &b = turned.force[i].v;
+      const auto &a = still.force[i], &b = turned.force[i];
       const Vector f({ a[0], a[1], a[2] });
       size       = std::max(size, f.norm());
       difference = std::max(difference,
@@ -395,7 +395,7 @@ TEST(SpaceJoints, RateForcesAreTheDerivativeOfForces)
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform(-1., 1.);
   for (auto &node : velocity)
-    for (double &v : node.v)
+    for (double &v : dealii::make_array_view(node))
       v = uniform(random);
   AlignedArray<dealii::Tensor<1, 3>> elastic_force(stack.nodes.n_local(),
                                                    dealii::Tensor<1, 3>()),
@@ -429,7 +429,7 @@ TEST(SpaceJoints, ViscousForcesTakeEnergyAndNoMomentum)
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform(-1., 1.);
   for (auto &node : velocity)
-    for (double &v : node.v)
+    for (double &v : dealii::make_array_view(node))
       v = uniform(random);
   stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.history(),
                                   velocity.data(), 1e-4, viscous.data());
@@ -459,7 +459,7 @@ TEST(SpaceJoints, ViscousForcesTakeEnergyAndNoMomentum)
   stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.history(),
                                   velocity.data(), 1e-4, viscous.data());
   for (const auto &f : viscous)
-    for (const double component : f.v)
+    for (const double component : dealii::make_array_view(f))
       EXPECT_NEAR(component, 0., 1e-12 * size);
 }
 

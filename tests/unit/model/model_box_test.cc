@@ -78,7 +78,7 @@ namespace
     const NodeRange range = block_nodes(run.model, 1);
     for (std::size_t i = range.begin; i < range.end; ++i)
     {
-      const double *X       = run.state.nodes[i].X;
+      const dealii::Tensor<1, 2> &X = run.state.nodes[i].X;
       run.state.velocity[i] = { { x - spin * (X[1] - 2.) + uniform(random),
                                   y + spin * (X[0] - 1.) + uniform(random) } };
     }

@@ -91,7 +91,7 @@ TEST(Reinforcement, ForcesHaveNoResultant)
   std::mt19937 random(1);
   std::uniform_real_distribution<double> change(-1e-3, 1e-3);
   for (NodeRecord<2> &node : bar.state.nodes)
-    for (double &u : node.u)
+    for (double &u : dealii::make_array_view(node.u))
       u += change(random);
   const auto force = bar.forces(bar.state);
   double sum[3] = { 0., 0., 0. }, size = 0.;
@@ -119,7 +119,7 @@ TEST(Reinforcement, StiffnessIsTheDerivative)
   for (unsigned int step = 0; step < 3; ++step)
   {
     for (NodeRecord<2> &node : bar.state.nodes)
-      for (double &u : node.u)
+      for (double &u : dealii::make_array_view(node.u))
         u += change(random);
     std::vector<double> stiffness;
     State<2> at = bar.state;

@@ -4,6 +4,7 @@
 #ifndef quoin_tests_tdbem_cavity_h
 #define quoin_tests_tdbem_cavity_h
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/elastodynamics/bessel_k.h>
 #include <quoin/elastodynamics/boundary.h>
@@ -75,7 +76,7 @@ namespace quoin::test
   {
     Eigen::VectorXd p(boundary.n_unknowns());
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
-      p.segment<2>(2 * e) = -boundary.elements[e].normal();
+      set_vector(p, e, -boundary.elements[e].normal());
     return p;
   }
 

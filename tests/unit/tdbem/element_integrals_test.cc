@@ -11,7 +11,6 @@
 
 using namespace quoin;
 using Eigen::Matrix2d;
-using Eigen::Vector2d;
 
 namespace
 {
@@ -33,7 +32,7 @@ namespace
           kinks.push_back(sign * std::sqrt((c * time - d) * (c * time + d)));
     return integrate_adaptively(
         [&](const double s) {
-          return time_kernels(medium, time, Vector2d(s, d), Vector2d(0., 1.));
+          return time_kernels(medium, time, dealii::Point<2>(s, d), dealii::Point<2>(0., 1.));
         },
         s1, s2, kinks, tolerance);
   }
@@ -115,7 +114,7 @@ TEST(ElementIntegrals, of_a_source_on_the_element)
     const TimeKernels left  = quadrature(time, 0., s1, -x);
     const TimeKernels other = quadrature(time, 0., x, s2);
     const TimeKernels at_x
-        = time_kernels(medium, time, Vector2d(x, 0.), Vector2d(0., 1.));
+        = time_kernels(medium, time, dealii::Point<2>(x, 0.), dealii::Point<2>(0., 1.));
     const double q
         = 1. / (medium.c1 * medium.c1) + 1. / (medium.c2 * medium.c2);
     const Matrix2d gap
@@ -149,8 +148,8 @@ TEST(ElementIntegrals, static_limit)
             {
               return TimeKernels{ Matrix2d::Zero(),
                                   static_traction_kernel(medium,
-                                                         Vector2d(s, 0.3),
-                                                         Vector2d(0., 1.)) };
+                                                         dealii::Point<2>(s, 0.3),
+                                                         dealii::Point<2>(0., 1.)) };
             },
             -0.2, 1., 1e-14)
             .B;
@@ -161,7 +160,7 @@ TEST(ElementIntegrals, static_limit)
 TEST(ElementIntegrals, in_the_global_frame)
 {
   const BoundaryElement element{ { 1., 2. }, { 1.3, 1.6 } };
-  const Vector2d source(0.5, 1.7);
+  const dealii::Point<2> source(0.5, 1.7);
   for (const double time : { 0.6, 0.9, 3. })
   {
     const TimeKernels exact = element_integrals(medium, time, source, element);
@@ -169,7 +168,7 @@ TEST(ElementIntegrals, in_the_global_frame)
     const unsigned n = 20000;
     for (unsigned k = 0; k < n; ++k)
     {
-      const Vector2d y = element.a + (element.b - element.a) * (k + 0.5) / n;
+      const dealii::Tensor<1, 2> y = element.a + (element.b - element.a) * (k + 0.5) / n;
       const TimeKernels value
           = time_kernels(medium, time, y - source, element.normal());
       expected.A += element.length() / n * value.A;

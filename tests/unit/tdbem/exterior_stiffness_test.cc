@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/exterior_stiffness.h>
 
@@ -14,7 +16,6 @@
 
 using namespace quoin;
 using Eigen::MatrixXd;
-using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 namespace
@@ -41,7 +42,7 @@ namespace
   {
     VectorXd values(boundary.n_unknowns());
     for (unsigned int e = 0; e < boundary.n_elements(); ++e)
-      values.segment<2>(2 * e) = field(boundary.elements[e]);
+      set_vector(values, e, dealii::Tensor<1, 2>(field(boundary.elements[e])));
     return values;
   }
 } // namespace
@@ -60,7 +61,7 @@ TEST(ExteriorStiffness, StoresEnergyButNoneOfATranslation)
   EXPECT_LT(exterior.asymmetry, 0.05);
 
   const VectorXd along = on_boundary(square, [](const BoundaryElement &)
-                                     { return Vector2d(1., 0.5); });
+                                     { return dealii::Point<2>(1., 0.5); });
   EXPECT_LT((forces * along).cwiseAbs().maxCoeff(), 1e-10 * largest);
   const VectorXd values
       = Eigen::SelfAdjointEigenSolver<MatrixXd>(forces).eigenvalues();
@@ -74,10 +75,10 @@ TEST(ExteriorStiffness, CircleUnderPressureAndTurned)
   const double radius   = 2.;
   const Boundary circle = Boundary::circle({ 1., -3. }, radius, 64, true);
   const MatrixXd K      = stiffness(circle).traction;
-  const Vector2d centre(1., -3.);
+  const dealii::Point<2> centre(1., -3.);
   const VectorXd outward
       = on_boundary(circle, [&](const BoundaryElement &element)
-                    { return Vector2d(element.middle() - centre); });
+                    { return dealii::Point<2>(element.middle() - centre); });
   // u = 1/r around a hole: p = 2 mu u / r on the domain.
   const VectorXd pressure = K * outward;
   EXPECT_LT((pressure - 2. * rock.mu() / radius * outward).norm(),
@@ -85,9 +86,9 @@ TEST(ExteriorStiffness, CircleUnderPressureAndTurned)
   const VectorXd turned = on_boundary(circle,
                                       [&](const BoundaryElement &element)
                                       {
-                                        const Vector2d r
+                                        const dealii::Tensor<1, 2> r
                                             = element.middle() - centre;
-                                        return Vector2d(-r.y(), r.x());
+                                        return dealii::Point<2>(-r[1], r[0]);
                                       });
   // u_t = 1/r: a shear strain of -2/r^2.
   const VectorXd torque = K * turned;
@@ -99,26 +100,27 @@ TEST(ExteriorStiffness, SquareAroundAHoleUnderShear)
 {
   // What a hole of radius 1 adds to pure shear, @cite Kirsch1898.
   const double nu   = rock.poisson();
-  const auto motion = [&](const Vector2d &x)
+  const auto motion = [&](const dealii::Point<2> &x)
   {
-    const double r = x.norm(), t = std::atan2(x.y(), x.x());
+    const double r = x.norm(), t = std::atan2(x[1], x[0]);
     const double ur
         = (4. * (1. - nu) / r - std::pow(r, -3)) * std::cos(2. * t),
         ut = -(2. * (1. - 2. * nu) / r + std::pow(r, -3)) * std::sin(2. * t);
-    return Vector2d(ur * std::cos(t) - ut * std::sin(t),
+    return dealii::Point<2>(ur * std::cos(t) - ut * std::sin(t),
                     ur * std::sin(t) + ut * std::cos(t));
   };
   const auto traction = [&](const BoundaryElement &element)
   {
-    const Vector2d x = element.middle();
-    const double r = x.norm(), t = std::atan2(x.y(), x.x()), q = 1. / (r * r);
+    const dealii::Point<2> x = element.middle();
+    const double r = x.norm(), t = std::atan2(x[1], x[0]), q = 1. / (r * r);
     const double rr = (-4. * q + 3. * q * q) * std::cos(2. * t),
                  tt = -3. * q * q * std::cos(2. * t),
                  rt = -(2. * q - 3. * q * q) * std::sin(2. * t);
     Eigen::Matrix2d stress, turn;
     stress << rr, rt, rt, tt;
     turn << std::cos(t), -std::sin(t), std::sin(t), std::cos(t);
-    return Vector2d(turn * stress * turn.transpose() * element.normal());
+    return to_tensor(turn * stress * turn.transpose()
+                     * to_eigen(element.normal()));
   };
   const auto error = [&](const double element_length)
   {
@@ -129,7 +131,7 @@ TEST(ExteriorStiffness, SquareAroundAHoleUnderShear)
         square,
         [&](const BoundaryElement &e)
         {
-          return Vector2d((motion(e.a) + 4. * motion(e.middle()) + motion(e.b))
+          return dealii::Point<2>((motion(e.a) + 4. * motion(e.middle()) + motion(e.b))
                           / (12. * rock.mu()));
         });
     const VectorXd exact = on_boundary(square, traction);
@@ -149,7 +151,7 @@ TEST(ExteriorStiffness, BarWithAFixedEnd)
   std::vector<bool> free(bar.n_unknowns(), true);
   for (unsigned int e = 0; e < bar.n_elements(); ++e)
   {
-    const double x = bar.elements[e].middle().x();
+    const double x = bar.elements[e].middle()[0];
     for (unsigned int k = 2 * e; k < 2 * e + 2; ++k)
       if (x < 1e-9)
         free[k] = false;
@@ -173,7 +175,7 @@ TEST(ExteriorStiffness, HalfPlaneAroundASemicircle)
 {
   // Surfaces that end: a translation moves what is beyond them, too.
   Boundary ground;
-  std::vector<Vector2d> points;
+  std::vector<dealii::Point<2>> points;
   for (int i = -20; i <= -5; ++i)
     points.push_back({ 0.2 * i, 0. });
   for (int i = 1; i < 16; ++i)
@@ -185,7 +187,7 @@ TEST(ExteriorStiffness, HalfPlaneAroundASemicircle)
   std::vector<unsigned int> interface;
   std::vector<bool> free(ground.n_unknowns(), true);
   for (unsigned int k = 0; k < ground.n_unknowns(); ++k)
-    if (ground.elements[k / 2].middle().y() < -1e-9)
+    if (ground.elements[k / 2].middle()[1] < -1e-9)
     {
       interface.push_back(k);
       free[k] = false;

@@ -15,7 +15,6 @@
 using namespace quoin;
 using Eigen::Matrix2d;
 using Eigen::MatrixXd;
-using Eigen::Vector2d;
 
 namespace
 {

@@ -15,7 +15,8 @@
 
 using namespace quoin;
 using Complex = std::complex<double>;
-using Point   = Eigen::Vector2d;
+using Point   = dealii::Point<2>;
+using Vector  = dealii::Tensor<1, 2>;
 
 namespace
 {
@@ -34,19 +35,19 @@ namespace
       {
         // Cut at the foot of x, where the integrand has its peak.
         const double size = f.length();
-        const double foot = (x - f.a).dot(f.tangent());
+        const double foot = (x - f.a) * f.tangent();
         const double cut
             = foot > 0. && foot < size ? foot / size : 0.3819660112501;
-        const auto add = [&](const Point &d, const double weight)
+        const auto add = [&](const Vector &d, const double weight)
         {
           if (d.norm() < 1e-290)
             return;
-          U += outer * weight * kernels.displacement(d);
-          P += outer * weight * kernels.traction(d, f.normal());
+          U += outer * weight * kernels.displacement(Point(d));
+          P += outer * weight * kernels.traction(Point(d), f.normal());
         };
-        const Point edge = f.b - f.a;
+        const Vector edge = f.b - f.a;
         // From whichever end is nearer, so that small distances keep digits.
-        const Point from_a = f.a - x, from_b = f.b - x;
+        const Vector from_a = f.a - x, from_b = f.b - x;
         test::tanh_sinh(
             0., cut,
             [&](const double t, const double w)
@@ -68,21 +69,21 @@ namespace
       std::vector<double> cuts = { 0., 1. };
       for (const Point &end : { f.a, f.b })
         cuts.push_back(std::min(
-            1., std::max(0., (end - e.a).dot(e.tangent()) / e.length())));
+            1., std::max(0., ((end - e.a) * e.tangent()) / e.length())));
       std::sort(cuts.begin(), cuts.end());
       for (unsigned piece = 0; piece < 3; ++piece)
       {
         const double begin = cuts[piece], end = cuts[piece + 1];
         const Point start = e.a + begin * (e.b - e.a);
         const Point stop  = end == 1. ? e.b : Point(e.a + end * (e.b - e.a));
-        const Point half  = 0.5 * (end - begin) * (e.b - e.a);
+        const Vector half  = 0.5 * (end - begin) * (e.b - e.a);
         if (end > begin)
           test::tanh_sinh(
               0., 1.,
               [&](const double t, const double w)
               {
                 inner(start + t * half, 0.5 * (end - begin) * w);
-                inner(stop - t * half, 0.5 * (end - begin) * w);
+                inner(Point(stop - t * half), 0.5 * (end - begin) * w);
               },
               1. / 20.);
       }
@@ -164,7 +165,7 @@ TEST(LaplaceMatrices, self_integral)
                         if (r > 0.)
                           reference
                               += 2. * w * (galerkin ? 1. - r / 0.5 : 1.)
-                                 * kernels.displacement(r * element.tangent());
+                                 * kernels.displacement(Point(r * element.tangent()));
                       });
       const auto matrices = laplace_matrices(boundary, medium, s, projection);
       EXPECT_LT((matrices.G - reference).norm(), 1e-13) << s;
@@ -207,10 +208,10 @@ TEST(LaplaceMatrices, hold_for_a_plane_wave_with_damping)
       for (unsigned e = 0; e < n; ++e)
       {
         const auto &element = boundary.elements[e];
-        const Complex value = std::exp(k * element.middle().x());
+        const Complex value = std::exp(k * element.middle()[0]);
         u(2 * e + 1)        = value;
-        p(2 * e)            = modulus * k * value * element.normal().y();
-        p(2 * e + 1)        = modulus * k * value * element.normal().x();
+        p(2 * e)            = modulus * k * value * element.normal()[1];
+        p(2 * e + 1)        = modulus * k * value * element.normal()[0];
       }
       error[level] = (matrices.H * u - matrices.G * p).norm() / u.norm();
     }

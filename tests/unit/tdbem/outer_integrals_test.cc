@@ -18,15 +18,14 @@
 #include "adaptive_quadrature.h"
 
 using namespace quoin;
-using Eigen::Vector2d;
 
 namespace
 {
   const ElasticMedium medium = ElasticMedium::from_young(2., 2.5, 0.25);
 
-  double distance(const Vector2d &x, const BoundaryElement &e)
+  double distance(const dealii::Point<2> &x, const BoundaryElement &e)
   {
-    const double s = std::clamp((x - e.a).dot(e.tangent()), 0., e.length());
+    const double s = std::clamp((x - e.a) * e.tangent(), 0., e.length());
     return (x - e.a - s * e.tangent()).norm();
   }
 
@@ -45,10 +44,10 @@ namespace
   {
     std::vector<double> all;
     const double length = outer.length();
-    for (const Vector2d &end : { inner.a, inner.b })
+    for (const dealii::Point<2> &end : { inner.a, inner.b })
     {
-      const double foot   = (end - outer.a).dot(outer.tangent());
-      const double height = std::abs((end - outer.a).dot(outer.normal()));
+      const double foot   = (end - outer.a) * outer.tangent();
+      const double height = std::abs((end - outer.a) * outer.normal());
       all.push_back(foot);
       for (const double c : { medium.c1, medium.c2 })
         if (c * time > height)
@@ -59,8 +58,8 @@ namespace
           all.push_back(foot + half);
         }
     }
-    const double slope  = outer.tangent().dot(inner.normal());
-    const double offset = (outer.a - inner.a).dot(inner.normal());
+    const double slope  = outer.tangent() * inner.normal();
+    const double offset = (outer.a - inner.a) * inner.normal();
     if (std::abs(slope) > 1e-12)
       for (const double c : { medium.c1, medium.c2 })
       {

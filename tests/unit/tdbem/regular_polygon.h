@@ -4,6 +4,7 @@
 #ifndef quoin_tests_tdbem_regular_polygon_h
 #define quoin_tests_tdbem_regular_polygon_h
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/elastodynamics/boundary.h>
 #include <quoin/tdbem/convolution_quadrature.h>
@@ -44,7 +45,7 @@ namespace quoin::test
     const auto frame = [](const BoundaryElement &element)
     {
       Eigen::Matrix2d result;
-      result << element.tangent(), element.normal();
+      result << to_eigen(element.tangent()), to_eigen(element.normal());
       return result;
     };
     const Eigen::Matrix2d first = frame(polygon.elements[0]);

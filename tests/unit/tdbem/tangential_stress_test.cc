@@ -3,6 +3,7 @@
 
 #include "cavity.h"
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/tdbem/static_solver.h>
 #include <quoin/tdbem/tangential_stress.h>
 
@@ -13,7 +14,6 @@ using namespace quoin;
 namespace
 {
   using Eigen::Matrix2d;
-  using Eigen::Vector2d;
 
   const ElasticMedium medium{ 2., 3., 1.5 };
 
@@ -34,13 +34,14 @@ namespace
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
     {
       const auto &element = boundary.elements[e];
-      u.segment<2>(2 * e) = Vector2d(1., 2.) + gradient * element.middle();
-      p.segment<2>(2 * e) = stress(gradient) * element.normal();
+      u.segment<2>(2 * e)
+          = Eigen::Vector2d(1., 2.) + gradient * to_eigen(element.middle());
+      p.segment<2>(2 * e) = stress(gradient) * to_eigen(element.normal());
     }
     const Eigen::VectorXd computed = TangentialStress(boundary, medium)(u, p);
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
     {
-      const Vector2d t = boundary.elements[e].tangent();
+      const auto t = to_eigen(boundary.elements[e].tangent());
       EXPECT_NEAR(computed[e], t.dot(stress(gradient) * t), 1e-11) << e;
     }
   }
@@ -72,12 +73,12 @@ TEST(TangentialStress, QuadraticOnALine)
                      false);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(6), p = u;
   for (unsigned e = 0; e < 3; ++e)
-    u[2 * e] = std::pow(boundary.elements[e].middle().x(), 2);
+    u[2 * e] = std::pow(boundary.elements[e].middle()[0], 2);
   const auto computed  = TangentialStress(boundary, medium)(u, p);
   const double modulus = 4. * medium.mu() * (medium.lambda() + medium.mu())
                          / (medium.lambda() + 2. * medium.mu());
   for (unsigned e = 0; e < 3; ++e)
-    EXPECT_NEAR(computed[e], 2. * boundary.elements[e].middle().x() * modulus,
+    EXPECT_NEAR(computed[e], 2. * boundary.elements[e].middle()[0] * modulus,
                 1e-12);
 }
 

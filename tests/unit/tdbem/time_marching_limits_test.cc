@@ -4,6 +4,7 @@
 // What every solution in time must satisfy whatever the formulation: its
 // static limit, the speed of the P wave, reciprocity, convergence at corners.
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/tdbem/time_marching.h>
 #include <quoin/tdbem/formulation.h>
 #include <quoin/tdbem/static_solver.h>
@@ -16,7 +17,6 @@
 
 using namespace quoin;
 using Eigen::MatrixXd;
-using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 namespace
@@ -32,12 +32,13 @@ namespace
   }
 
   VectorXd pressure(const Boundary &boundary,
-                    const std::function<double(const Vector2d &)> &value)
+                    const std::function<double(const dealii::Point<2> &)> &value)
   {
     VectorXd p(boundary.n_unknowns());
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
-      p.segment<2>(2 * e) = -value(boundary.elements[e].middle())
-                            * boundary.elements[e].normal();
+      set_vector(p, e,
+                 -value(boundary.elements[e].middle())
+                     * boundary.elements[e].normal());
     return p;
   }
 
@@ -45,7 +46,7 @@ namespace
   VectorXd one_side(const Boundary &boundary)
   {
     return pressure(boundary,
-                    [](const Vector2d &x) { return x.x() > 0.499 ? 1. : 0.; });
+                    [](const dealii::Point<2> &x) { return x[0] > 0.499 ? 1. : 0.; });
   }
 
   /** A marching and what it needs, its steps kept as columns. */
@@ -111,7 +112,7 @@ namespace
   {
     return { values,
              std::vector<bool>(std::size_t(values.size()), displacement_known),
-             { 0., 0. } };
+             {} };
   }
 
   /** Without the mean of each component; all elements are equally long. */
@@ -139,7 +140,7 @@ namespace
     double sum = 0.;
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
     {
-      const double x = boundary.elements[e].middle().x();
+      const double x = boundary.elements[e].middle()[0];
       if (std::abs(x) > 0.499)
         sum += u(2 * e) * boundary.elements[e].length() * (x > 0. ? 1. : -1.);
     }
@@ -159,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(Formulations, StaticLimit,
 TEST_P(StaticLimit, of_given_tractions)
 {
   const Boundary boundary = square_hole(4);
-  const VectorXd all  = pressure(boundary, [](const Vector2d &) { return 1.; });
+  const VectorXd all  = pressure(boundary, [](const dealii::Tensor<1, 2> &) { return 1.; });
   const auto p_static = solve_static(boundary, medium, Projection::galerkin,
                                      conditions(all, false));
   Solution run(boundary, 1., true, 400, GetParam());
@@ -185,7 +186,7 @@ TEST_P(StaticLimit, of_given_motion)
   const Boundary boundary = square_hole(4);
   VectorXd motion(boundary.n_unknowns());
   for (unsigned e = 0; e < boundary.n_elements(); ++e)
-    motion.segment<2>(2 * e) = boundary.elements[e].middle();
+    set_vector<2>(motion, e, boundary.elements[e].middle());
   const auto expected = solve_static(boundary, medium, Projection::galerkin,
                                      conditions(motion, true));
   Solution run(boundary, 1., false, 400, GetParam());
@@ -203,8 +204,8 @@ TEST(TimeMarchingLimits, causality)
   const double distance  = 1.2;
   for (BoundaryElement element : square_hole(5).elements)
   {
-    element.a.x() += 1. + distance;
-    element.b.x() += 1. + distance;
+    element.a[0] += 1. + distance;
+    element.b[0] += 1. + distance;
     boundary.elements.push_back(element);
   }
   VectorXd both      = VectorXd::Zero(2 * n_first);
@@ -236,7 +237,7 @@ TEST(TimeMarchingLimits, causality_along_a_boundary)
   double early = 0., late = 0.;
   for (unsigned step = 0; step < 40; ++step)
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
-      if (boundary.elements[e].middle().x() < -0.499)
+      if (boundary.elements[e].middle()[0] < -0.499)
       {
         double &greatest = step < 13 ? early : late;
         greatest = std::max(greatest, run.u.col(step).segment<2>(2 * e).norm());
@@ -257,9 +258,9 @@ TEST(TimeMarchingLimits, reciprocity)
     VectorXd first(boundary.n_unknowns()), second(boundary.n_unknowns());
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
     {
-      const Vector2d x         = boundary.elements[e].middle();
-      first.segment<2>(2 * e)  = Vector2d(1. + x.x(), x.y() * x.y());
-      second.segment<2>(2 * e) = Vector2d(x.x() * x.y(), std::exp(-x.x()));
+      const dealii::Point<2> x         = boundary.elements[e].middle();
+      set_vector<2>(first, e, dealii::Point<2>(1. + x[0], x[1] * x[1]));
+      set_vector<2>(second, e, dealii::Point<2>(x[0] * x[1], std::exp(-x[0])));
     }
     const unsigned n_steps = 6 * per_side;
     Solution one(boundary, 1., traction_given, n_steps);
@@ -303,16 +304,16 @@ TEST(TimeMarchingLimits, pressure_on_one_side)
     run(load, [](double) { return 1.; });
     const auto at_rest = solve_static(boundary, medium, Projection::galerkin,
                                       conditions(load, false));
-    return Vector2d(opening(boundary, run.u.rightCols<1>()),
+    return dealii::Point<2>(opening(boundary, run.u.rightCols<1>()),
                     opening(boundary, at_rest.displacement));
   };
-  const Vector2d coarse = solve(6), middle = solve(12), fine = solve(24);
+  const dealii::Tensor<1, 2> coarse = solve(6), middle = solve(12), fine = solve(24);
   for (const unsigned k : { 0u, 1u })
   {
     // The corners leave order one.
-    const double first = std::abs(middle(k) - coarse(k));
-    const double last  = std::abs(fine(k) - middle(k));
+    const double first = std::abs(middle[k] - coarse[k]);
+    const double last  = std::abs(fine[k] - middle[k]);
     EXPECT_LT(last, 0.65 * first);
-    EXPECT_LT(last, 0.01 * std::abs(fine(k)));
+    EXPECT_LT(last, 0.01 * std::abs(fine[k]));
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/tdbem/time_marching.h>
 #include <quoin/tdbem/direct_history.h>
 #include <quoin/tdbem/influence_matrices.h>
@@ -133,7 +134,7 @@ TEST(TimeMarching, instantaneous_impedance)
     all[k] = k;
   const Eigen::MatrixXd Z      = dt * run.marching.condensed_matrix(all);
   const unsigned e             = 4; // in the middle of a side
-  const Eigen::Vector2d normal = boundary.elements[e].normal();
+  const auto normal = to_eigen(boundary.elements[e].normal());
   const Eigen::Matrix2d local  = Z.block<2, 2>(2 * e, 2 * e);
   const double along_normal    = normal.dot(local * normal);
   EXPECT_NEAR(along_normal / (medium.density * medium.c1), 1., 0.02);
