@@ -157,7 +157,7 @@ TEST(BlockForces, UniformStrainPatch)
     // Unit side length 2, corner at the origin.
     const double exx = 2e-6, eyy = -1e-6, exy = 0.7e-6;
     mesh.displace(
-        [=](const double x, const double y, double *u)
+        [=](const double x, const double y, dealii::Tensor<1, 2> &u)
         {
           u[0] = exx * x + exy * y;
           u[1] = exy * x + eyy * y;
@@ -259,7 +259,7 @@ TEST(BlockForces, ForcesAddToWhatIsThere)
     blocks.add_forces(tile, mesh.nodes.data(), none, twice.data());
   Forces once = strip_forces(blocks, mesh);
   for (dealii::Tensor<1, 2> &f : once)
-    f = { { 2. * f[0], 2. * f[1] } };
+    f = dealii::Point<2>(2. * f[0], 2. * f[1]);
   EXPECT_LT(largest_difference(twice, once), 1e-14 * largest(once));
 }
 
@@ -422,8 +422,8 @@ TEST(BlockForces, ViscousForcesIgnoreRigidMotion)
   for (std::size_t i = 0; i < velocity.size(); ++i)
   {
     const NodeRecord<2> &n = mesh.nodes[i];
-    velocity[i]
-        = { { 1. - 7. * (n.X[1] + n.u[1]), 2. + 7. * (n.X[0] + n.u[0]) } };
+    velocity[i]            = dealii::Point<2>(1. - 7. * (n.X[1] + n.u[1]),
+                                   2. + 7. * (n.X[0] + n.u[0]));
   }
   const double scale = 2e-5 * 7. * stone.young * mesh.data.thickness[0];
   EXPECT_LT(largest(viscous_forces(blocks, mesh, velocity)), 1e-11 * scale);

@@ -23,9 +23,9 @@ namespace
     {
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> uniform(-1., 1.);
-      const auto fill = [&](double(&values)[dim])
+      const auto fill = [&](dealii::Tensor<1, dim> &values)
       {
-        for (double &value : values)
+        for (double &value : dealii::make_array_view(values))
           value = uniform(random);
       };
       nodes.resize(n);
@@ -34,11 +34,11 @@ namespace
       viscous.resize(n);
       for (unsigned int i = 0; i < n; ++i)
       {
-        fill(nodes[i].X.begin_raw());
+        fill(nodes[i].X);
         fill(nodes[i].u);
-        fill(velocity[i].begin_raw());
-        fill(force[i].begin_raw());
-        fill(viscous[i].begin_raw());
+        fill(velocity[i]);
+        fill(force[i]);
+        fill(viscous[i]);
         mass.push_back(2. + uniform(random));
         inverse_mass.push_back(1. / mass.back());
       }
@@ -112,9 +112,9 @@ TEST(NodeUpdate, LocalDampingTakesAShareOfTheForce)
   Nodes set(20);
   const double c = 0.8, dt = 0.01;
   for (auto &v : set.velocity)
-    v = { { 3., -3. } };
+    v = dealii::Point<2>(3., -3.);
   for (auto &f : set.viscous)
-    f = { { 0., 0. } };
+    f = dealii::Point<2>(0., 0.);
   const Nodes before = set;
   set.damped({ c, 0., dt, dt }, dt);
   for (unsigned int i = 0; i < 20; ++i)
@@ -154,15 +154,15 @@ TEST(NodeUpdate, LocalDampingNeverDoesPositiveWork)
     for (unsigned int seed = 0; seed < 200; ++seed)
     {
       Nodes set(1, seed);
-      set.viscous[0] = { { 0., 0. } };
+      set.viscous[0] = dealii::Point<2>(0., 0.);
       double taken   = 0.;
       for (unsigned int step = 0; step < 5; ++step)
       {
         const auto work = set.damped({ 0.8, alpha, 0.1, 0.1 }, 0.1);
         EXPECT_GE(work.before + work.after, 0.);
         taken += work.before + work.after;
-        set.force[0]
-            = { { -70. * set.velocity[0][0], -20. * set.velocity[0][1] } };
+        set.force[0] = dealii::Point<2>(-70. * set.velocity[0][0],
+                                        -20. * set.velocity[0][1]);
       }
       EXPECT_GT(taken, 0.);
     }
@@ -193,7 +193,7 @@ TEST(NodeUpdate, ZeroFactorsAreUndamped)
 {
   Nodes damped(30);
   for (auto &f : damped.viscous)
-    f = { { 0., 0. } };
+    f = dealii::Point<2>(0., 0.);
   Nodes undamped  = damped;
   const auto work = damped.damped({ 0., 0., 0.1, 0.15 }, 0.2);
   advance_nodes(0, 30, undamped.nodes.data(), undamped.velocity.data(),
@@ -227,7 +227,8 @@ TEST(NodeUpdate, ConstrainedNodesKeepTheirVelocity)
 
   // It counts in none of the sums.
   Nodes others(4);
-  others.force[2] = others.viscous[2] = others.velocity[2] = { { 0., 0. } };
+  others.force[2] = others.viscous[2] = others.velocity[2]
+      = dealii::Point<2>(0., 0.);
   const auto rest = others.damped<true>({ 0.8, 2., 0.1, 0.1 }, 0.1);
   EXPECT_DOUBLE_EQ(all.before, rest.before);
   EXPECT_DOUBLE_EQ(all.after, rest.after);

@@ -358,7 +358,7 @@ namespace
     void strain(const double xx, const double yy, const double shear)
     {
       mesh.displace(
-          [=](const double x, const double y, double *u)
+          [=](const double x, const double y, dealii::Tensor<1, 2> &u)
           {
             u[0] = xx * x + shear * y;
             u[1] = yy * y;

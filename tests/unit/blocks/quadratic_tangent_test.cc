@@ -130,7 +130,7 @@ TEST(QuadraticTangent, QuadraticFieldsAreIntegratedExactly)
     RandomBlocks mesh = elastic_block(plane, true);
     const Field field;
     mesh.displace(
-        [&](const double x, const double y, double *u)
+        [&](const double x, const double y, dealii::Tensor<1, 2> &u)
         {
           u[0] = field.value(0, x, y);
           u[1] = field.value(1, x, y);
@@ -175,7 +175,7 @@ TEST(QuadraticTangent, LinearFieldsPullAtTheEdgesAlone)
     mesh.data.stiffness.resize(1);
     mesh.data.cell_stiffness.clear();
     mesh.displace(
-        [&](const double x, const double y, double *u)
+        [&](const double x, const double y, dealii::Tensor<1, 2> &u)
         {
           const double a = x + e[0] * x + e[2] * y, b = y + e[2] * x + e[1] * y;
           u[0] = c * a - s * b - x;

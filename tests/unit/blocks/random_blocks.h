@@ -34,7 +34,7 @@ namespace quoin
           const double h    = side / m;
           const double x    = h * (i + (inside ? 0.25 * random() : 0.));
           const double y    = h * (j + (inside ? 0.25 * random() : 0.));
-          nodes.push_back({ { x, y }, { 0., 0. } });
+          nodes.push_back({ { x, y }, {} });
         }
       std::vector<std::array<unsigned int, 3>> cells;
       for (unsigned int j = 0; j < m; ++j)
@@ -61,9 +61,9 @@ namespace quoin
     void add_triangle()
     {
       const unsigned int n = nodes.size();
-      nodes.push_back({ { 3., 1. }, { 0., 0. } });
-      nodes.push_back({ { 4., 1.2 }, { 0., 0. } });
-      nodes.push_back({ { 3.4, 2. }, { 0., 0. } });
+      nodes.push_back({ { 3., 1. }, {} });
+      nodes.push_back({ { 4., 1.2 }, {} });
+      nodes.push_back({ { 3.4, 2. }, {} });
       data.cells.push_back({ n, n + 1, n + 2 });
       finish_block();
     }
@@ -90,7 +90,7 @@ namespace quoin
       const double h  = std::sin(0.5 * angle);
       const double c1 = -2. * h * h, s = std::sin(angle);
       displace(
-          [=](const double x, const double y, double *u)
+          [=](const double x, const double y, dealii::Tensor<1, 2> &u)
           {
             u[0] = c1 * x - s * y + ux;
             u[1] = s * x + c1 * y + uy;
@@ -120,7 +120,7 @@ namespace quoin
     {
       AlignedArray<dealii::Tensor<1, 2>> velocity(nodes.size());
       for (dealii::Tensor<1, 2> &v : velocity)
-        v = { { random(), random() } };
+        v = dealii::Point<2>(random(), random());
       return velocity;
     }
 

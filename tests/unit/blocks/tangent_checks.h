@@ -38,7 +38,7 @@ namespace quoin::tangent_test
       {
         const auto &A = mesh.nodes[a].X, &B = mesh.nodes[b].X;
         mesh.nodes.push_back(
-            { { 0.5 * (A[0] + B[0]), 0.5 * (A[1] + B[1]) }, { 0., 0. } });
+            { { 0.5 * (A[0] + B[0]), 0.5 * (A[1] + B[1]) }, {} });
       }
       return place->second;
     };

@@ -36,7 +36,7 @@ namespace
       joints.prepare(state);
       contacts->prepare(state);
       for (const auto &p : mesh.vertices)
-        state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+        state.nodes.push_back({ { p[0], p[1] }, {} });
       state.velocity.assign(mesh.n_vertices(), dealii::Tensor<1, 2>());
     }
 
@@ -196,7 +196,7 @@ TEST(BlockContacts, ForcesAreContinuousAsABlockSlidesOverCornersAndOff)
   // By which it is known how often to look.
   scene.for_block(slider,
                   [&](const unsigned int v) {
-                    scene.state.velocity[v] = { { step / 1e-9, 0. } };
+                    scene.state.velocity[v] = dealii::Point<2>(step / 1e-9, 0.);
                   });
   for (unsigned int i = 0; i < 20500; ++i)
   {

@@ -45,7 +45,7 @@ namespace
       contacts[0]->prepare(state);
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         state.nodes.push_back(
-            { { nodes->point(v)[0], nodes->point(v)[1] }, { 0., 0. } });
+            { { nodes->point(v)[0], nodes->point(v)[1] }, {} });
       state.velocity.assign(nodes->n_local(), dealii::Tensor<1, 2>());
     }
 

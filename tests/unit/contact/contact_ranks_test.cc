@@ -88,8 +88,7 @@ namespace
       joints.prepare(state);
       contacts.prepare(state);
       for (unsigned int i = 0; i < nodes.n_local(); ++i)
-        state.nodes.push_back(
-            { { nodes.point(i)[0], nodes.point(i)[1] }, { 0., 0. } });
+        state.nodes.push_back({ { nodes.point(i)[0], nodes.point(i)[1] }, {} });
       state.velocity.assign(nodes.n_local(), dealii::Tensor<1, 2>());
     }
 
@@ -116,7 +115,8 @@ namespace
                         force.data());
       for (unsigned int i = nodes.n_owned() + nodes.exchange().n_shared();
            i < nodes.n_local(); ++i)
-        force[i] = { { 0., 0. } }; // on partners: their owners have them
+        force[i]
+            = dealii::Point<2>(0., 0.); // on partners: their owners have them
       StepContext step{};
       step.dt = 1e-9;
       by.update(step, at);

@@ -48,7 +48,8 @@ namespace
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     std::vector<dealii::Tensor<1, 2>> velocity;
     for (unsigned int b = 0; b < n * n; ++b)
-      velocity.push_back({ { uniform(random) + drift, uniform(random) } });
+      velocity.push_back(
+          dealii::Point<2>(uniform(random) + drift, uniform(random)));
     for (unsigned int i = 0; i < run->nodes->n_local(); ++i)
       run->state.velocity[i] = velocity[run->nodes->block_of_node(i)];
     run->step(2000);
@@ -105,7 +106,7 @@ TEST(BlockGaps, AreThoseOfTheNearestBlockThatIsNotTouched)
   const TestNodes nodes(mesh);
   State<2> state;
   for (const auto &p : mesh.vertices)
-    state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+    state.nodes.push_back({ { p[0], p[1] }, {} });
   // From (1, 0..0.9) to the block beside, and from that to the one above.
   const auto gaps = block_gaps(nodes, state, 0.2);
   ASSERT_EQ(gaps.size(), 3U);

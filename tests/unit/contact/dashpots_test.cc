@@ -54,7 +54,7 @@ namespace
       contacts->set_blocks(blocks);
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         state.nodes.push_back(
-            { { nodes->point(v)[0], nodes->point(v)[1] }, { 0., 0. } });
+            { { nodes->point(v)[0], nodes->point(v)[1] }, {} });
       state.velocity.assign(nodes->n_local(), dealii::Tensor<1, 2>());
       for (JointState &point : state.get<JointHistory>().state)
         point = JointState::slipped;

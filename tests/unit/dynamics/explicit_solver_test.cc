@@ -614,7 +614,8 @@ TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)
   for (unsigned int n = 0; n < flat.n_vertices(); ++n)
   {
     const dealii::Tensor<1, 2> &v = a.state.velocity[n];
-    b.state.velocity[n] = { { c * v[0] - s * v[1], s * v[0] + c * v[1] } };
+    b.state.velocity[n]
+        = dealii::Point<2>(c * v[0] - s * v[1], s * v[0] + c * v[1]);
   }
   for (TestRun *run : { &a, &b })
   {
@@ -624,7 +625,8 @@ TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)
   }
   for (unsigned int n = 0; n < flat.n_vertices(); ++n)
   {
-    const dealii::Tensor<1, 2> &v = a.state.velocity[n], &w = b.state.velocity[n];
+    const dealii::Tensor<1, 2> &v = a.state.velocity[n],
+                               &w = b.state.velocity[n];
     EXPECT_NEAR(w[0], c * v[0] - s * v[1], 1e-14);
     EXPECT_NEAR(w[1], s * v[0] + c * v[1], 1e-14);
   }

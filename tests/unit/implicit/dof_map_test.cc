@@ -77,8 +77,8 @@ namespace
       for (unsigned int v = mesh.block_first_vertex[block];
            v < mesh.block_first_vertex[block + 1]; ++v)
       {
-        const double x  = mesh.vertices[v][0] - centre[0];
-        const double y  = mesh.vertices[v][1] - centre[1];
+        const double x                = mesh.vertices[v][0] - centre[0];
+        const double y                = mesh.vertices[v][1] - centre[1];
         const dealii::Tensor<1, 2> &u = configuration.nodes[v].u;
         EXPECT_NEAR(u[0], motion[0] + c * x - s * y - x, 1e-14);
         EXPECT_NEAR(u[1], motion[1] + s * x + c * y - y, 1e-14);
@@ -168,7 +168,7 @@ TEST(DofMap, ProjectionIsTheTransposeOfTheMotion)
   std::uniform_real_distribution<double> uniform(-1., 1.);
   AlignedArray<dealii::Tensor<1, 2>> force(run.mesh.n_vertices());
   for (dealii::Tensor<1, 2> &f : force)
-    f = { { uniform(random), uniform(random) } };
+    f = dealii::Point<2>(uniform(random), uniform(random));
   const Values others{ { 0.3, -0.8, 0.5 }, { -0.2, 0.4, 0.7 } };
   auto sums = run.vector();
   run.dof_map->add_forces(force, sums);
@@ -226,7 +226,7 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
 
   // Only what is not given has a right-hand side.
   AlignedArray<dealii::Tensor<1, 2>> force(run.mesh.n_vertices(),
-                                           { { 1., 1. } });
+                                           dealii::Point<2>(1., 1.));
   auto sums = run.vector();
   run.dof_map->add_forces(force, sums);
   add_body_forces(run.dof_map->bodies(), Values(2, { { 1., 1., 1. } }), sums);

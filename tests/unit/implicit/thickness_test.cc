@@ -159,8 +159,8 @@ TEST(Thickness, WaveIsReflectedByTheRatioOfSections)
       const double x          = run.state.nodes[i].X[0] - start;
       const double z          = (x + 0.5 * c * run.dt()) / ramp;
       run.state.nodes[i].u[0] = 0.5 * step * std::erfc(x / ramp);
-      run.state.velocity[i]
-          = { { step * c / (ramp * std::sqrt(M_PI)) * std::exp(-z * z), 0. } };
+      run.state.velocity[i]   = dealii::Point<2>(
+          step * c / (ramp * std::sqrt(M_PI)) * std::exp(-z * z), 0.);
     }
     run.step(std::lround(125. / (c * run.dt())));
     // The mean of both sides: at the step their nodes have different masses.

@@ -37,7 +37,7 @@ namespace
       joints.prepare(state);
       history = state.get<JointHistory>();
       for (const auto &p : mesh.vertices)
-        nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+        nodes.push_back({ { p[0], p[1] }, {} });
     }
 
     /** Turns all by @p angle; then points of the upper side are apart by
@@ -53,7 +53,7 @@ namespace
       for (unsigned int k = 0; k < 2; ++k)
       {
         const auto &[opening, slip] = gaps[k];
-        dealii::Tensor<1, 2> &u = nodes[joints.segments()[0].upper[k]].u;
+        dealii::Tensor<1, 2> &u     = nodes[joints.segments()[0].upper[k]].u;
         u[0] += c * slip - s * opening;
         u[1] += s * slip + c * opening;
       }

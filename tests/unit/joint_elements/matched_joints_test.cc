@@ -38,7 +38,7 @@ namespace
       joints.prepare(state);
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         state.nodes.push_back(
-            { { nodes->point(v)[0], nodes->point(v)[1] }, { 0., 0. } });
+            { { nodes->point(v)[0], nodes->point(v)[1] }, {} });
     }
 
     static BlockMesh<2> mesh(const unsigned int nx, const double angle,
@@ -269,11 +269,11 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   const double turn = 1e-9;
   const double c = std::cos(50. * degree), s = std::sin(50. * degree);
   std::vector<dealii::Tensor<1, 2>> motion(stack.nodes->n_local(),
-                                           { { 0., 0. } });
+                                           dealii::Point<2>(0., 0.));
   for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
   {
     const auto arm = stack.nodes->point(v) - dealii::Point<2>(-s, c);
-    motion[v]      = { { -turn * arm[1], turn * arm[0] } };
+    motion[v]      = dealii::Point<2>(-turn * arm[1], turn * arm[0]);
     for (unsigned int d = 0; d < 2; ++d)
       stack.state.nodes[v].u[d] = motion[v][d];
   }
@@ -296,7 +296,7 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   // At the rate of this motion dampers of the joint's stiffness give the same
   // force; that of each node has its own area.
   std::vector<dealii::Tensor<1, 2>> viscous(stack.nodes->n_local(),
-                                            { { 0., 0. } });
+                                            dealii::Point<2>(0., 0.));
   stack.joints.add_viscous_forces(stack.state.nodes.data(),
                                   stack.state.get<JointHistory>(),
                                   motion.data(), 1., viscous.data());
@@ -596,7 +596,7 @@ TEST(MatchedJoints, ViscousForcesOfStickingPoints)
   AlignedArray<dealii::Tensor<1, 2>> velocity(stack.nodes->n_local(),
                                               dealii::Tensor<1, 2>());
   for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
-    velocity[v] = { { 0.3, -0.2 } };
+    velocity[v] = dealii::Point<2>(0.3, -0.2);
 
   const double beta = 1e-4;
   const auto damp   = [&]()
@@ -755,7 +755,7 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
   State<2> state;
   joints.prepare(state);
   for (const auto &p : mesh.vertices)
-    state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+    state.nodes.push_back({ { p[0], p[1] }, {} });
   for (unsigned int b = 1; b < 3; ++b)
     for (unsigned int v = mesh.block_first_vertex[b];
          v < mesh.block_first_vertex[b + 1]; ++v)

@@ -134,7 +134,7 @@ namespace
       for (unsigned int i = 0; i < nodes.n_local(); ++i)
       {
         const auto &p = nodes.point(i);
-        state.nodes.push_back({ { p[0], p[1], p[2] }, { 0., 0., 0. } });
+        state.nodes.push_back({ { p[0], p[1], p[2] }, {} });
       }
     }
 

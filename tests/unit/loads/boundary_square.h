@@ -73,7 +73,7 @@ namespace quoin::test
         before.force    = force[node];
         before.velocity = state.velocity[node];
         before.displacement
-            = { { state.nodes[node].u[0], state.nodes[node].u[1] } };
+            = dealii::Point<2>(state.nodes[node].u[0], state.nodes[node].u[1]);
         for (unsigned int d = 0; d < 2; ++d)
           before.owner[d]
               = constraint.traits().moves(d) ? &constraint : nullptr;

@@ -105,7 +105,7 @@ TEST(NodalLoad, PressureAllAroundIsInBalanceAndDoesTheWorkOfVolume)
   // The area, 3 m^2, grows by 0.1 + 0.2 of itself a second.
   std::vector<dealii::Tensor<1, 2>> velocity;
   for (const auto &p : rectangle.mesh.vertices)
-    velocity.push_back({ { 0.1 * p[0], 0.2 * p[1] } });
+    velocity.push_back(dealii::Point<2>(0.1 * p[0], 0.2 * p[1]));
   EXPECT_NEAR(load.external_power({ 0., 0. }, velocity.data()),
               -7. * 2. * 3. * 0.3, 1e-13);
 }

@@ -109,7 +109,7 @@ TEST(Platen, TakesOverTheMotionOfItsNodes)
   {
     const double x          = block.mesh.vertices[i][0] - 2.5;
     const double y          = block.mesh.vertices[i][1] - 2.5;
-    block.state.velocity[i] = { { 4. - 3. * y, -1. + 3. * x } };
+    block.state.velocity[i] = dealii::Point<2>(4. - 3. * y, -1. + 3. * x);
   }
   block.platen.begin_stage(block.state, false);
   const PlatenState &now = block.state.get<PlatenState>("plate");

@@ -33,12 +33,13 @@ TEST(PrescribedMotion, ReactionIsWhatTheMassesNeed)
   PrescribedMotion<2> motion(
       to_the_right(LoadQuantity::velocity, "3 + 1000 * t"), square.nodes);
   ASSERT_EQ(motion.nodes(), (std::vector<unsigned int>{ 1, 2 }));
-  square.state.velocity[1]   = { { 1., 7. } };
-  square.state.velocity[2]   = { { 2., 8. } };
+  square.state.velocity[1]   = dealii::Point<2>(1., 7.);
+  square.state.velocity[2]   = dealii::Point<2>(2., 8.);
   square.state.nodes[2].u[1] = 0.5; // at a height of 3.5 m
-  square.capture(
-      motion,
-      { { { 0., 0. } }, { { 10., 50. } }, { { -20., 60. } }, { { 0., 0. } } });
+  square.capture(motion, { dealii::Point<2>(0., 0.),
+                           { { 10., 50. } },
+                           { { -20., 60. } },
+                           { { 0., 0. } } });
   square.move(motion);
 
   const double first  = 1. * 2.5 / square.dt - 10.;

@@ -43,9 +43,9 @@ TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
     // Displacements of the time before the step count; both are at rest.
     CapturedNode<2> before{};
     before.node         = i;
-    before.displacement = { { 0.5 * i, -0.5 * i } };
-    account_for_dashpot<2>(step, before, { { 2., 2., 0. } }, { { 3., 5. } },
-                           nullptr, resultant, state);
+    before.displacement = dealii::Point<2>(0.5 * i, -0.5 * i);
+    account_for_dashpot<2>(step, before, dealii::Point<3>(2., 2., 0.),
+                           { { 3., 5. } }, nullptr, resultant, state);
   }
   EXPECT_DOUBLE_EQ(resultant[0], 6.);
   EXPECT_DOUBLE_EQ(resultant[1], 10.);
@@ -61,7 +61,7 @@ TEST(ViscousBoundary, ResistsMotionByItsImpedance)
   boundary.prepare(square.state);
   boundary.begin_stage(square.state, false);
   for (dealii::Tensor<1, 2> &v : square.state.velocity)
-    v = { { 2., 3. } };
+    v = dealii::Point<2>(2., 3.);
   square.capture(boundary,
                  std::vector<dealii::Tensor<1, 2>>(4, dealii::Tensor<1, 2>()));
   square.move(boundary);

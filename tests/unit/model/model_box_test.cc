@@ -79,8 +79,9 @@ namespace
     for (std::size_t i = range.begin; i < range.end; ++i)
     {
       const dealii::Tensor<1, 2> &X = run.state.nodes[i].X;
-      run.state.velocity[i] = { { x - spin * (X[1] - 2.) + uniform(random),
-                                  y + spin * (X[0] - 1.) + uniform(random) } };
+      run.state.velocity[i]
+          = dealii::Point<2>(x - spin * (X[1] - 2.) + uniform(random),
+                             y + spin * (X[0] - 1.) + uniform(random));
     }
   }
 

@@ -40,7 +40,8 @@ namespace
     std::array<double, 3> resultant(const LoadParameters &parameters) const
     {
       const NodalLoad<2> load(parameters, nodes, model->mass(), thickness);
-      std::vector<dealii::Tensor<1, 2>> force(nodes->n_local(), { { 0., 0. } });
+      std::vector<dealii::Tensor<1, 2>> force(nodes->n_local(),
+                                              dealii::Point<2>(0., 0.));
       load.add_loads({ 0., 0. }, force.data());
       std::array<double, 3> sum{};
       for (unsigned int v = 0; v < force.size(); ++v)
@@ -106,7 +107,7 @@ TEST(QuadraticModel, TractionAndPressureHaveTheirResultants)
   const NodalLoad<2> load(traction("pull", "top", "0", "1"), stack.nodes,
                           stack.model->mass(), thickness);
   std::vector<dealii::Tensor<1, 2>> force(stack.nodes->n_local(),
-                                          { { 0., 0. } });
+                                          dealii::Point<2>(0., 0.));
   load.add_loads({ 0., 0. }, force.data());
   const double expected[]
       = { 1. / 6., 2. / 3., 1. / 3., 2. / 3., 1. / 3., 2. / 3., 1. / 6. };

@@ -219,7 +219,7 @@ namespace quoin::test
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> uniform(-speed, speed);
       for (dealii::Tensor<1, 2> &v : state.velocity)
-        v = { { uniform(random), uniform(random) } };
+        v = dealii::Point<2>(uniform(random), uniform(random));
     }
   };
 } // namespace quoin::test

@@ -103,7 +103,7 @@ namespace
     for (const std::uint64_t number : numbers.nodes)
     {
       state.nodes.push_back({ { double(number), 1. }, { 0.1, 0.2 } });
-      state.velocity.push_back({ { 0., 2. * double(number) } });
+      state.velocity.push_back(dealii::Point<2>(0., 2. * double(number)));
     }
     // Copies of other ranks' nodes may be old.
     for (unsigned int i = numbers.n_owned_nodes; i < numbers.nodes.size(); ++i)
