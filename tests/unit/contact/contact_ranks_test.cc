@@ -93,16 +93,13 @@ namespace
     }
 
     /** Displacement of each node from its block and its place. */
-    using Motion
-        = std::function<std::array<double, 2>(unsigned int, const double *)>;
+    using Motion = std::function<dealii::Tensor<1, 2>(
+        unsigned int, const dealii::Point<2> &)>;
 
     void find_forces(const Motion &motion)
     {
       for (unsigned int i = 0; i < nodes.n_local(); ++i)
-      {
-        const auto u = motion(nodes.block_of_node(i), state.nodes[i].X);
-        std::copy(u.begin(), u.end(), state.nodes[i].u);
-      }
+        state.nodes[i].u = motion(nodes.block_of_node(i), state.nodes[i].X);
       state.get<ContactState>().next_check = state.step;
       find_forces(contacts, state);
       ++state.step;
@@ -276,7 +273,7 @@ namespace
   }
 
   /** Columns are pushed into each other and slide past each other. */
-  std::array<double, 2> slide(const double *X, const double way)
+  dealii::Tensor<1, 2> slide(const dealii::Point<2> &X, const double way)
   {
     const int column = static_cast<int>(X[0] / 1.02);
     return { -0.023 * column, column % 2 == 0 ? way : -way };
@@ -308,7 +305,7 @@ TEST(ContactsOfRanks, AreThoseOfOneRankWithTheNeighbourhoodAlone)
   unsigned int most = 0;
   for (unsigned int i = 0; i < 60; ++i)
   {
-    twins.find_forces([&](const unsigned int, const double *X)
+    twins.find_forces([&](const unsigned int, const dealii::Point<2> &X)
                       { return slide(X, 0.01 * i); });
     twins.compare(0.);
     twins.compare_pairs();
@@ -341,10 +338,10 @@ TEST(ContactsOfRanks, FollowBlocksThatMeetAnew)
   for (unsigned int i = 0; i < 75; ++i)
   {
     twins.find_forces(
-        [&](const unsigned int, const double *X)
+        [&](const unsigned int, const dealii::Point<2> &X)
         {
-          return X[1] < 1.0005 ? std::array<double, 2>{ 0., 0. }
-                               : std::array<double, 2>{ -7. + 0.2 * i, -0.003 };
+          return X[1] < 1.0005 ? dealii::Point<2>(0., 0.)
+                               : dealii::Point<2>(-7. + 0.2 * i, -0.003);
         });
     twins.compare(0.);
     twins.compare_pairs();
@@ -371,10 +368,10 @@ TEST(ContactsOfRanks, GoOnFromJointsThatAreHandedOver)
     for (unsigned int i = 0; i < 100; ++i)
     {
       twins.find_forces(
-          [&](const unsigned int block, const double *)
+          [&](const unsigned int block, const dealii::Point<2> &)
           {
-            return block == 0 ? std::array<double, 2>{ 0., 0. }
-                              : std::array<double, 2>{ 1e-3 * i, -1e-4 };
+            return block == 0 ? dealii::Point<2>(0., 0.)
+                              : dealii::Point<2>(1e-3 * i, -1e-4);
           });
       twins.compare(ranks == whole ? 0. : 1e-13);
       twins.compare_pairs();
@@ -402,12 +399,11 @@ TEST(ContactsOfRanks, GoOnWhereABlockIsDivided)
     {
       const double way = 0.04 * (i < 40 ? i : 80 - i);
       twins.find_forces(
-          [&](const unsigned int block, const double *X)
+          [&](const unsigned int block, const dealii::Point<2> &X)
           {
-            return block == 0 ? std::array<double, 2>{ 0., 0. }
-                              : std::array<double, 2>{
-                                  way, -1e-4 - 2e-5 * std::sin(X[0] + 0.2 * i)
-                                };
+            return block == 0 ? dealii::Point<2>(0., 0.)
+                              : dealii::Point<2>(
+                                  way, -1e-4 - 2e-5 * std::sin(X[0] + 0.2 * i));
           });
       twins.compare(1e-13);
       twins.compare_pairs();
@@ -466,11 +462,10 @@ TEST(ContactsOfRanks, StopAtADeepOverlapWithTheSameWords)
     {
       for (unsigned int i = 0; i < 100; ++i)
         assembly.find_forces(
-            [&](const unsigned int block, const double *X)
+            [&](const unsigned int block, const dealii::Point<2> &X)
             {
-              return std::array<double, 2>{
-                0., block == 1 ? 0.05 * (X[0] - 0.3) - 0.01 * i : 0.
-              };
+              return dealii::Point<2>(
+                  0., block == 1 ? 0.05 * (X[0] - 0.3) - 0.01 * i : 0.);
             });
     }
     catch (const RunError &error)

@@ -76,9 +76,9 @@ namespace quoin
     // Displacements small enough for the rotation not to matter.
     AlignedArray<NodeRecord<2>> nodes;
     for (const auto &p : mesh.vertices)
-      nodes.push_back({ { p[0], p[1] },
-                        { 1e-12 * std::sin(7. * p[0] + 3. * p[1]),
-                          1e-12 * std::cos(5. * p[0] - 4. * p[1]) } });
+      nodes.push_back(
+          { p, dealii::Point<2>(1e-12 * std::sin(7. * p[0] + 3. * p[1]),
+                                1e-12 * std::cos(5. * p[0] - 4. * p[1])) });
     AlignedArray<dealii::Tensor<1, 2>> force(nodes.size(),
                                              dealii::Tensor<1, 2>());
     PlasticHistory none;

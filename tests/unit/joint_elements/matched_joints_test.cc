@@ -691,7 +691,7 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   State<2> state;
   joints.prepare(state);
   for (const auto &p : mesh.vertices)
-    state.nodes.push_back({ { p[0], p[1] }, { 0.01 * p[0], -0.02 * p[1] } });
+    state.nodes.push_back({ p, dealii::Point<2>(0.01 * p[0], -0.02 * p[1]) });
   state.nodes[segment.upper[1 - tip]].u[1] += 1e-4;
   initialise_joints(
       joints, { { { { { 2e5, 3e5, 1e5 } }, { { 2e5, 3e5, 1e5 } } } } }, state);

@@ -273,7 +273,7 @@ TEST(SpaceJoints, ForcesHaveNoResultantAndNoMoment)
     double size = 0.;
     for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
     {
-      const dealii::Tensor<1, 2> &v = stack.force[i];
+      const dealii::Tensor<1, 3> &v = stack.force[i];
       const Vector f({ v[0], v[1], v[2] });
       resultant += f;
       moment += cross_product_3d(stack.position(i), f);
@@ -437,7 +437,7 @@ TEST(SpaceJoints, ViscousForcesTakeEnergyAndNoMomentum)
   Vector moment;
   for (unsigned int i = 0; i < stack.nodes.n_local(); ++i)
   {
-    const dealii::Tensor<1, 2> &f = viscous[i];
+    const dealii::Tensor<1, 3> &f = viscous[i];
     const Vector force({ f[0], f[1], f[2] });
     for (unsigned int d = 0; d < 3; ++d)
       power += f[d] * velocity[i][d];

@@ -33,8 +33,8 @@ TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
   State<2> state;
   state.nodes.resize(2);
   state.velocity.resize(2);
-  state.nodes[0] = { { 1., 2. }, { 0., 0. } };
-  state.nodes[1] = { { 4., 6. }, { 0.7, 0.9 } };
+  state.nodes[0] = { { 1., 2. }, {} };
+  state.nodes[1] = { { 4., 6. }, dealii::Point<2>(0.7, 0.9) };
   StepContext step{};
   step.dt = step.dt_before = step.dt_velocity = 1e-3;
   std::array<double, 3> resultant{};

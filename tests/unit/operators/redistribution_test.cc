@@ -102,7 +102,8 @@ namespace
     state.block_marks.assign(2, block_mark::left_box);
     for (const std::uint64_t number : numbers.nodes)
     {
-      state.nodes.push_back({ { double(number), 1. }, { 0.1, 0.2 } });
+      state.nodes.push_back(
+          { { double(number), 1. }, dealii::Point<2>(0.1, 0.2) });
       state.velocity.push_back(dealii::Point<2>(0., 2. * double(number)));
     }
     // Copies of other ranks' nodes may be old.

@@ -35,7 +35,7 @@ namespace
     State<2> state;
     state.add<ImplicitState>();
     for (const std::uint64_t number : numbers.nodes)
-      state.nodes.push_back({ { 0., 0. }, { double(number), u } });
+      state.nodes.push_back({ {}, dealii::Point<2>(double(number), u) });
     return state;
   }
 } // namespace

@@ -73,16 +73,16 @@ TEST(BlockOutput, SeriesOfFiles)
 {
   const TemporaryDirectory directory;
   BlockFields<2> fields;
-  fields.position
-      = { { { 0., 0. } }, { { 1., 0. } }, dealii::Point<2>(0., 1.) };
-  fields.displacement
-      = { { { 0., 0. } }, { { .1, 0. } }, dealii::Point<2>(0., 0.) };
-  fields.velocity = fields.displacement;
-  fields.cells    = { { { 0, 1, 2 } } };
-  fields.stress   = { { { 1., 2., 3., 0. } } };
-  fields.strain   = { { { .1, .2, .3 } } };
-  fields.block    = { 0 };
-  fields.material = { 1 };
+  fields.position     = { dealii::Point<2>(0., 0.), dealii::Point<2>(1., 0.),
+                          dealii::Point<2>(0., 1.) };
+  fields.displacement = { dealii::Point<2>(0., 0.), dealii::Point<2>(.1, 0.),
+                          dealii::Point<2>(0., 0.) };
+  fields.velocity     = fields.displacement;
+  fields.cells        = { { { 0, 1, 2 } } };
+  fields.stress       = { { { 1., 2., 3., 0. } } };
+  fields.strain       = { { { .1, .2, .3 } } };
+  fields.block        = { 0 };
+  fields.material     = { 1 };
 
   BlockOutput output(directory.path(), MPI_COMM_SELF);
   output.start();
@@ -100,10 +100,10 @@ TEST(JointOutput, SeriesOfFiles)
 {
   const TemporaryDirectory directory;
   JointFields fields;
-  fields.position        = { { { 0., 0. } }, dealii::Point<2>(3., 4.) };
-  fields.displacement    = { { { 1., 0. } }, dealii::Point<2>(1., 0.) };
-  fields.opening         = { 0., 1e-3 };
-  fields.slip            = { 0., 0. };
+  fields.position     = { dealii::Point<2>(0., 0.), dealii::Point<2>(3., 4.) };
+  fields.displacement = { dealii::Point<2>(1., 0.), dealii::Point<2>(1., 0.) };
+  fields.opening      = { 0., 1e-3 };
+  fields.slip         = { 0., 0. };
   fields.normal_traction = { -1., 0. };
   fields.shear_traction  = { 0., 0. };
   fields.state           = { JointState::intact, JointState::open };

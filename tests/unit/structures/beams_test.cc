@@ -66,7 +66,7 @@ namespace
       const NodeMap<2> &map = nodes;
       state.nodes.resize(map.n_local());
       for (unsigned int i = 0; i < map.n_local(); ++i)
-        state.nodes[i] = { { map.point(i)[0], map.point(i)[1] }, { 0., 0. } };
+        state.nodes[i] = { map.point(i), {} };
       beams = std::make_unique<Beams>(std::vector<BeamParameters>{ beam }, map,
                                       sets, 1., Thickness(1.));
       beams->prepare(state);
