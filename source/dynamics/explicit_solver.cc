@@ -4,7 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/explicit_solver.h>
-#include <quoin/dynamics/loading_rate.h>
+#include <quoin/loading/loading_rate.h>
 #include <quoin/dynamics/state_checks.h>
 
 #include <algorithm>

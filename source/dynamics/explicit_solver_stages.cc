@@ -6,7 +6,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/explicit_solver.h>
-#include <quoin/dynamics/loading_rate.h>
+#include <quoin/loading/loading_rate.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/model/contact_bounds.h>
 #include <quoin/model/material_waves.h>

@@ -24,12 +24,6 @@
 
 namespace quoin
 {
-  bool names_load(const StageParameters &stage, const std::string &name)
-  {
-    return std::find(stage.loads.begin(), stage.loads.end(), name)
-           != stage.loads.end();
-  }
-
   double Energies::throughput() const
   {
     /** Share of what is stored at the start that may be rounding. */

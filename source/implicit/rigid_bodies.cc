@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/dynamics/load_pattern.h>
+#include <quoin/loading/load_pattern.h>
 #include <quoin/implicit/rigid_bodies.h>
 #include <quoin/loads/platen.h>
 #include <quoin/blocks/rigid_blocks.h>

@@ -10,7 +10,7 @@
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/model/model.h>
-#include <quoin/dynamics/stage_loads.h>
+#include <quoin/loading/stage_loads.h>
 #include <quoin/stages/stage_parameters.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/motion_constraint.h>
@@ -274,9 +274,6 @@ namespace quoin
                             std::unique_ptr<StaticFarField> static_far_field);
   template <>
   std::vector<bool> Solver<2>::find_held_blocks() const;
-
-  /** Whether @p stage names the load @p name. */
-  bool names_load(const StageParameters &stage, const std::string &name);
 } // namespace quoin
 
 #endif

@@ -13,7 +13,7 @@
 #include <quoin/blocks/block_cells.h>
 #include <quoin/blocks/stable_time_step.h>
 #include <quoin/blocks/rigid_blocks.h>
-#include <quoin/joints/joint_parameters.h>
+#include <quoin/joint_laws/joint_parameters.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/materials/material_parameters.h>
 #include <quoin/materials/plane_assumption.h>
