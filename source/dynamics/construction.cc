@@ -3,6 +3,7 @@
 
 #include <quoin/dynamics/construction.h>
 #include <quoin/model/block_placement.h>
+#include <quoin/model/model_changes.h>
 
 #include <algorithm>
 
@@ -105,7 +106,7 @@ namespace quoin
       if (step.places)
         place(step, state);
       if (step.changes)
-        model.change_properties(properties_after(stage + 1), state);
+        change_properties(model, properties_after(stage + 1), state);
       state.energy.external += stored_energy(state) - before;
     }
     if (!step.changes
@@ -204,8 +205,8 @@ namespace quoin
     const auto blocks  = blocks_in(step.fill);
     for (const unsigned int block : blocks)
       state.block_marks[block] = block_mark::present;
-    model.clear_initial_stress(step.fill,
-                               state.template get<ConstructionState<dim>>());
+    clear_initial_stress(model, step.fill,
+                         state.template get<ConstructionState<dim>>());
     model.set_properties(model.properties(),
                          state.template get<ConstructionState<dim>>());
     place_blocks(model, blocks, state);

@@ -6,6 +6,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
+#include <quoin/model/model_stability.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/dynamics/explicit_solver.h>
 
@@ -75,8 +76,9 @@ namespace quoin
     // The bound takes as long as some steps, and small flow changes it little.
     if (dealii::Utilities::MPI::max(flowed, communicator) < 0.05)
       return;
-    const double eigenvalue = model.stability_at(state).largest_eigenvalue(
-        node_mass, rigid_stage.mass_factor);
+    const double eigenvalue
+        = stability_at(model, state)
+              .largest_eigenvalue(node_mass, rigid_stage.mass_factor);
     const double critical = StableTimeStep<dim>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);

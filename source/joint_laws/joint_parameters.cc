@@ -92,7 +92,7 @@ namespace quoin
   void JointSetParameters::declare(dealii::ParameterHandler &prm)
   {
     declare_entries(prm, enter_places);
-    LawEntries::all().declare(prm);
+    LawEntries::declare(prm);
     declare_entries(prm, enter_damping);
   }
 

@@ -53,20 +53,21 @@ namespace quoin
     return entries;
   }
 
-  void LawEntries::declare(dealii::ParameterHandler &prm) const
+  void LawEntries::declare(dealii::ParameterHandler &prm)
   {
+    const LawEntries laws = all();
     std::string pattern, sentence = "Constitutive law of the joints. ";
-    for (const LawName &name : names)
+    for (const LawName &name : laws.names)
     {
       sentence += (pattern.empty() ? "" : "; ") + std::string(name.word) + ": "
                   + name.sentence;
       pattern += (pattern.empty() ? "" : "|") + std::string(name.word);
     }
-    prm.declare_entry("Law", names.front().word,
+    prm.declare_entry("Law", laws.names.front().word,
                       dealii::Patterns::Selection(pattern), sentence + ".");
-    for (const Entry &entry : entries)
+    for (const Entry &entry : laws.entries)
       prm.declare_entry(entry.name, entry.value, *entry.pattern,
-                        description(entry));
+                        laws.description(entry));
   }
 
   std::string LawEntries::description(const Entry &entry) const
@@ -99,8 +100,7 @@ namespace quoin
     if (reads())
       value = section->positive(name);
     else
-      collect(name, ParameterEntries::default_text({ value }), Double(),
-              sentence, unit);
+      collect(name, default_text({ value }), Double(), sentence, unit);
   }
 
   void LawEntries::nonnegative(const std::string &name, double &value,
@@ -110,8 +110,7 @@ namespace quoin
     if (reads())
       value = section->nonnegative(name);
     else
-      collect(name, ParameterEntries::default_text({ value }), Double(),
-              sentence, unit);
+      collect(name, default_text({ value }), Double(), sentence, unit);
   }
 
   void LawEntries::within(const std::string &name, double &value,
@@ -121,8 +120,7 @@ namespace quoin
     if (reads())
       value = section->within(name, low, high);
     else
-      collect(name, ParameterEntries::default_text({ value }), Double(),
-              sentence, unit);
+      collect(name, default_text({ value }), Double(), sentence, unit);
   }
 
   void LawEntries::positive_or_none(const std::string &name, double &value,

@@ -29,11 +29,8 @@ namespace quoin
     /** Entries of the law that @p section names. */
     explicit LawEntries(const ParameterSection &section);
 
-    /** Entries of all laws, collected. */
-    static LawEntries all();
-
-    /** Declares 'Law' and what was collected. */
-    void declare(dealii::ParameterHandler &prm) const;
+    /** Declares 'Law' and the entries of all laws. */
+    static void declare(dealii::ParameterHandler &prm);
 
     /**
      * Refuses, of the section that is read, what the first law reads and the
@@ -90,6 +87,8 @@ namespace quoin
 
   private:
     LawEntries() = default;
+    /** Entries of all laws, collected. */
+    static LawEntries all();
 
     /** Description of an entry by laws that share it. */
     struct Note

@@ -59,7 +59,7 @@ namespace
     {
       const auto stress   = cell_stress(model.blocks(), state.nodes.data(),
                                         state.get<PlasticHistory>(), c, nullptr);
-      const bool is_upper = model.material_of_cell(c) == 1;
+      const bool is_upper = material_of_cell(model, c) == 1;
       EXPECT_NEAR(stress[1], -force / (is_upper ? upper : lower),
                   tolerance * pressure);
       EXPECT_NEAR(stress[0], 0., tolerance * pressure);
