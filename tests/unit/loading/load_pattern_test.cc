@@ -232,9 +232,9 @@ TEST(LoadPattern, ImplicitFactorIsTheLoadOfTheSameDisplacement)
   // Of a vertical displacement, which is not along the loads.
   const double wanted = 1e-5;
   ImplicitRun run(mesh, two_blocks(), held_and_pushed());
-  const unsigned int node = nodes_at(run.nodes, 0., 4.).front();
-  run.solver.set_control("stage", { { node, 1, 1. } });
-  const StageParameters stage = pushed("1e-5 * t");
+  const unsigned int node              = nodes_at(run.nodes, 0., 4.).front();
+  run.solver.loads().controls["stage"] = { { node, 1, 1. } };
+  const StageParameters stage          = pushed("1e-5 * t");
   run.solver.begin_stage(stage, nullptr, run.state);
   run.finish();
   EXPECT_NEAR(run.state.nodes[node].u[1], wanted, 1e-11);
