@@ -62,9 +62,9 @@ namespace quoin
       // after a check.
       State<dim> state    = start;
       unsigned int period = 1;
-      if (system.solver->far_fields().elastodynamic_acts)
+      if (system.solver->loads().far.elastodynamic_acts)
       {
-        const FarField &far = *system.solver->far_fields().elastodynamic;
+        const FarField &far = *system.solver->loads().far.elastodynamic;
         period = far.boundary_history().period() * far.n_substeps();
         // The first two prepare matrices for their steps.
         for (unsigned int i = 0; i < 2; ++i)

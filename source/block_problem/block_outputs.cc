@@ -59,16 +59,17 @@ namespace quoin
       resets(std::any_of(
           system.parameters.stages.begin(), system.parameters.stages.end(),
           [](const StageParameters &stage) { return stage.reset.any(); })),
-      histories(make_histories(system)),
+      all_histories(make_histories(system)),
       row_times(system.parameters.row_times()),
       field_times(system.parameters.field_times()),
-      history_table(run.tables.add("histories.csv", histories.column_names())),
+      history_table(
+          run.tables.add("histories.csv", all_histories.column_names())),
       energy_table(run.tables.add("energies.csv", energy_columns())),
       fields(run.output, *system.model, *system.solver,
              system.parameters.field_format),
       boundary(run.output, MPI_COMM_SELF, system.parameters.field_format)
   {
-    if (system.solver->far_fields().elastodynamic)
+    if (system.solver->loads().far.elastodynamic)
       far_field_table = &run.tables.add(
           "far_field.csv",
           { "time [s]", "steps [-]", "radiated [J]", "substeps [J]",
@@ -101,7 +102,7 @@ namespace quoin
     run.on_first_rank(
         [&]()
         {
-          if (system.solver->far_fields().elastodynamic)
+          if (system.solver->loads().far.elastodynamic)
             boundary.start();
           if (!run.options.resume)
             write_generated_geometry();
@@ -117,7 +118,7 @@ namespace quoin
       return;
     change_origin(state, [&](State<dim> &now)
                   { count_from(*system.model, reset, now); });
-    histories.begin_stage(reset, state);
+    all_histories.begin_stage(reset, state);
   }
 
   template <int dim>
@@ -158,7 +159,7 @@ namespace quoin
   template <int dim>
   std::size_t BlockOutputs<dim>::n_columns() const
   {
-    return energy_columns().size() + histories.column_names().size();
+    return energy_columns().size() + all_histories.column_names().size();
   }
 
   template <int dim>
@@ -172,7 +173,7 @@ namespace quoin
   template <int dim>
   std::vector<double> BlockOutputs<dim>::add_rows(const State<dim> &state)
   {
-    const auto row = histories.after_step(state);
+    const auto row = all_histories.after_step(state);
     write_energies(row.front());
     history_table.add_row(row);
     if constexpr (dim == 2)
@@ -239,7 +240,7 @@ namespace quoin
     outside_table->add_row({ block.time, double(block.block), block.position[0],
                              block.position[1], block.velocity[0],
                              block.velocity[1], block.removed ? 1. : 0. });
-    return block.removed ? histories.names_in(block.block)
+    return block.removed ? all_histories.names_in(block.block)
                          : std::vector<std::string>();
   }
 
@@ -262,7 +263,7 @@ namespace quoin
     fields_time = state.time;
     measured([&]() { fields.write(state.time, state); });
     if constexpr (dim == 2)
-      if (system.solver->far_fields().elastodynamic)
+      if (system.solver->loads().far.elastodynamic)
         write_boundary(state);
     run.tables.flush();
   }
@@ -270,27 +271,17 @@ namespace quoin
   template <>
   void BlockOutputs<2>::write_boundary(const State<2> &state)
   {
-    if (!system.solver->far_fields().elastodynamic_acts
+    if (!system.solver->loads().far.elastodynamic_acts
         || !state.get<FarFieldState>().active)
       return;
     const BoundaryState on_boundary
-        = boundary_state(*system.solver->far_fields().elastodynamic, state);
+        = boundary_state(*system.solver->loads().far.elastodynamic, state);
     run.on_first_rank(
         [&]()
         {
           boundary.write(state.time, boundary_fields(system.boundary_geometry,
                                                      on_boundary));
         });
-  }
-
-  template <int dim>
-  void BlockOutputs<dim>::write_mechanism(const State<dim> &state,
-                                          const double factor)
-  {
-    ModelOutput<dim> mechanism(run.output + "/mechanism", *system.model,
-                               *system.solver, system.parameters.field_format);
-    mechanism.start();
-    mechanism.write(factor, state);
   }
 
   template class BlockOutputs<2>;

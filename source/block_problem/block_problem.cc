@@ -115,11 +115,11 @@ namespace quoin
     if (const unsigned int n_rigid = system.n_rigid_blocks(); n_rigid > 0)
       run.log.message(n_rigid, " of the blocks ",
                       n_rigid == 1 ? "is rigid" : "are rigid");
-    if (const StaticFarField *far = system.solver->far_fields().elastostatic)
+    if (const StaticFarField *far = system.solver->loads().far.elastostatic)
       run.log.message("static boundary elements: the stiffness of the rock "
                       "beyond the blocks was made symmetric; it differed by ",
                       far->asymmetry(), " of its largest entry");
-    if (const Beams *beams = system.solver->beams())
+    if (const Beams *beams = system.solver->loads().beams.get())
       run.log.messages(beams->text());
     if (run.options.check)
       for (const auto &lines :
@@ -215,7 +215,8 @@ namespace quoin
   {
     const StageParameters &stage = parameters.stages[index];
     const AddedMass &added       = system.explicit_solver->added_mass();
-    if (const double water = system.explicit_solver->added_water(); water > 0.)
+    if (const double water = system.explicit_solver->added_water().total();
+        water > 0.)
       run.log.message("stage ", stage.name, ": ", water,
                       " kg of water move with the faces below it");
     if (added.share == 0.)
@@ -242,7 +243,7 @@ namespace quoin
                         unsupported_body_text(bodies));
     run.log.warnings(stage_advice(parameters, index, *system.model, begun,
                                   system.explicit_solver->get_time_step()));
-    if (system.solver->far_fields().elastodynamic_acts)
+    if (system.solver->loads().far.elastodynamic_acts)
       run.log.warnings(boundary_advice(parameters.boundary,
                                        system.boundary_geometry, stage.duration,
                                        wants_hoop_stress(parameters)));
@@ -371,7 +372,7 @@ namespace quoin
       summary.update(
           { { "time step [s]", solver->get_time_step() },
             { "critical time step [s]", solver->critical_time_step() },
-            { "added mass share", solver->added_mass_share() },
+            { "added mass share", solver->added_mass().share },
             { "element updates per second",
               seconds > 0.
                   ? double(report.n_cells) * double(context.n_done) / seconds
@@ -392,7 +393,7 @@ namespace quoin
           = std::count(marks.begin(), marks.end(), block_mark::left_box);
     }
     if constexpr (dim == 2)
-      if (system.solver->contacts())
+      if (system.model->contacts())
         summarise_contacts(summary, seconds);
     if (summary["finished"] && parameters.measure_bandwidth)
       summarise_bandwidth(summary, seconds);
@@ -455,7 +456,7 @@ namespace quoin
   void BlockProblem<2>::summarise_contacts(nlohmann::ordered_json &summary,
                                            const double seconds) const
   {
-    const BlockContacts *contacts = system.solver->contacts();
+    const BlockContacts *contacts = system.model->contacts();
     const double sums[3]
         = { contacts->n_touching(state.get<ContactState>()),
             double(contacts->n_updates()), contacts->search_seconds() };
@@ -556,7 +557,7 @@ namespace quoin
                                 ", energy balance error ", 100. * residual,
                                 " % of the energy throughput") };
     words.figures += time_line(summary);
-    if (system.solver->contacts())
+    if (system.model->contacts())
       words.figures += text_of(
           "\ncontacts: ", millions("contact updates per second"),
           "updates a second, ", state.template get<ContactState>().n_searches,

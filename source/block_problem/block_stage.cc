@@ -31,10 +31,10 @@ namespace quoin
         naming(parameters.file,
                [&]()
                {
-                 system.solver->set_control(
-                     stage.name,
-                     outputs.terms_of(stage.pattern->controlled,
-                                      "section 'Stages/" + stage.name + "': "));
+                 system.solver->loads().controls[stage.name]
+                     = outputs.histories().terms_of(stage.pattern->controlled,
+                                                    "section 'Stages/"
+                                                        + stage.name + "': ");
                });
   }
 

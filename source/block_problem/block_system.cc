@@ -77,12 +77,12 @@ namespace quoin
                  water = std::make_unique<JointFlow>(
                      parameters.water, *nodes, model->joints(),
                      parameters.model.joints, model->thickness());
-                 solver->set_flow(water.get());
+                 solver->loads().water = water.get();
                }
                if (!parameters.beams.empty())
-                 solver->set_beams(std::make_unique<Beams>(
+                 solver->loads().beams = std::make_unique<Beams>(
                      parameters.beams, *nodes, parameters.model.joints,
-                     parameters.model.thickness, model->thickness()));
+                     parameters.model.thickness, model->thickness());
              }
            });
   }
@@ -266,7 +266,7 @@ namespace quoin
       {
         solver->stage_loads().check_start(state);
         if (explicit_solver)
-          explicit_solver->check_levels(state);
+          explicit_solver->added_water().check_levels(stage, state.time);
       }
     }
     catch (const InputError &error)

@@ -93,7 +93,7 @@ namespace quoin
     bool ExplicitStage<dim>::condition_ends_here() const
     {
       if constexpr (dim == 2)
-        if (solver.far_fields().elastodynamic_acts
+        if (solver.loads().far.elastodynamic_acts
             && state.template get<FarFieldState>().substep > 0)
           return false;
       return this->is_to_end();
@@ -118,7 +118,8 @@ namespace quoin
       const bool row_is_due = outputs.row_is_due(state.time, dt);
       typename ExplicitSolver<dim>::Requests requests;
       requests.energies = row_is_due || may_be_last(balance);
-      requests.balance = balance || (row_is_due && outputs.row_needs_balance());
+      requests.balance
+          = balance || (row_is_due && outputs.histories().need_balance());
       if (requests.energies)
         this->before_row();
       try
@@ -142,7 +143,7 @@ namespace quoin
       }
       over = over || condition_ends_here();
       if (balance || over)
-        outputs.check_tables();
+        context.run.tables.check();
       return state.stage_step % CheckpointClock::steps_between_looks == 0
                  ? Checkpoint::possible
                  : Checkpoint::no;

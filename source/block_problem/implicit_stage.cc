@@ -100,7 +100,7 @@ namespace quoin
       const ImplicitState &now = state.get<ImplicitState>();
       if (now.released == 1. && !now.jumps)
         add_row();
-      outputs.check_tables();
+      context.run.tables.check();
       if (state.time > before
           && outputs.fields_are_due(state.time, state.time - before))
         outputs.write_fields(state);

@@ -24,6 +24,18 @@ namespace quoin
         solver moves against drag. */
     constexpr double released_at = 0.1;
 
+    /** Writes the unstable state at @p factor: mechanism/. Collective. */
+    template <int dim>
+    void write_mechanism(const BlockContext<dim> &context, const double factor)
+    {
+      const BlockSystem<dim> &system = context.system;
+      ModelOutput<dim> mechanism(context.run.output + "/mechanism",
+                                 *system.model, *system.solver,
+                                 system.parameters.field_format);
+      mechanism.start();
+      mechanism.write(factor, context.state);
+    }
+
     template <int dim>
     class SafetyStage : public BlockStage<dim>
     {
@@ -120,7 +132,7 @@ namespace quoin
                   " steps, largest displacement ", trial.displacement, " m");
       if (trial.verdict == Verdict::failing
           && trial.factor < search.lowest_failing())
-        outputs.write_mechanism(state, trial.factor);
+        write_mechanism(context, trial.factor);
       search.add(trial);
       state = base;
       system.set_properties(strong, state);
@@ -191,7 +203,7 @@ namespace quoin
     {
       return system.explicit_solver && stage.damping == DampingType::adaptive
              && (system.nodes->faces().n_global_joints > 0
-                 || system.solver->contacts());
+                 || system.model->contacts());
     }
 
     template <int dim>
@@ -351,7 +363,7 @@ namespace quoin
       double energy           = model.blocks().stored_energy(base)
                       + model.joints().stored_energy(base);
       if constexpr (dim == 2)
-        if (const BlockContacts *contacts = system.solver->contacts())
+        if (const BlockContacts *contacts = system.model->contacts())
           energy += contacts->stored_energy(base);
       AlignedArray<NodeVector<dim>> forces(base.nodes.size(),
                                            NodeVector<dim>());
@@ -427,7 +439,8 @@ namespace quoin
                     "elements that yield are stronger than the ground itself, "
                     "so factors are above those of finer meshes: "
                     "scripts/mesh_convergence estimates by how much");
-      if (system.solver->beams() || !system.model->reinforcement().empty())
+      if (system.solver->loads().beams
+          || !system.model->reinforcement().empty())
         log.message(begin, "bolts, cables, beams and the interfaces of liners "
                            "kept their strength");
       log.message(begin, search.trials().size(), " trials of ",

@@ -70,10 +70,10 @@ namespace quoin
                   : parameters.share_of_critical_step);
     steps_of_stage = 0;
     if constexpr (dim == 2)
-      if (system.solver->far_fields().elastodynamic_acts)
+      if (system.solver->loads().far.elastodynamic_acts)
         dt = choose_far_field_step(stage, dt);
     if (stage.end == StageEnd::time
-        && !system.solver->far_fields().elastodynamic_acts)
+        && !system.solver->loads().far.elastodynamic_acts)
     {
       // The stage ends at a step, not near one.
       steps_of_stage = std::uint64_t(count_steps(
@@ -91,7 +91,7 @@ namespace quoin
   double StageSteps<2>::choose_far_field_step(const StageParameters &stage,
                                               const double dt)
   {
-    FarField &far = *system.solver->far_fields().elastodynamic;
+    FarField &far = *system.solver->loads().far.elastodynamic;
     const BoundaryElementParameters &settings = parameters.boundary;
     const std::string section
         = parameters.file + ", section 'Boundary elements': ";
@@ -138,7 +138,7 @@ namespace quoin
   template <>
   void StageSteps<2>::make_waves(const double step)
   {
-    FarField &far   = *system.solver->far_fields().elastodynamic;
+    FarField &far   = *system.solver->loads().far.elastodynamic;
     double duration = 0.;
     for (const StageParameters &stage : parameters.stages)
       if (stage.end == StageEnd::time && names_load(stage, far.name()))
@@ -156,7 +156,7 @@ namespace quoin
   template <>
   void StageSteps<2>::report_far_field()
   {
-    const FarField &far    = *system.solver->far_fields().elastodynamic;
+    const FarField &far    = *system.solver->loads().far.elastodynamic;
     const Boundary &domain = far.domain().boundary;
     const auto lengths     = domain.lengths();
     log.message("boundary elements: ", domain.n_elements(), ", ",

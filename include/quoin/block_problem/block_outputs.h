@@ -38,23 +38,15 @@ namespace quoin
     {
       return field_times.is_due(time, dt);
     }
-    /** Whether a row needs the unbalanced ratio of its own step. */
-    bool row_needs_balance() const
+    const Histories<dim> &histories() const
     {
-      return histories.need_balance();
-    }
-
-    /** See Histories::terms_of(). */
-    std::vector<DisplacementTerm> terms_of(const std::string &name,
-                                           const std::string &where) const
-    {
-      return histories.terms_of(name, where);
+      return all_histories;
     }
 
     /** Called before the step whose row is due. */
     void before_row(const State<dim> &state)
     {
-      histories.before_step(state);
+      all_histories.before_step(state);
     }
     /**
      * Writes rows of histories, energies and far field for the time before the
@@ -70,14 +62,7 @@ namespace quoin
 
     /** Writes the fields of @p state, once for each time. */
     void write_fields(const State<dim> &state);
-    /** Writes the unstable @p state at @p factor: mechanism/. */
-    void write_mechanism(const State<dim> &state, double factor);
 
-    /** Stops all ranks if the first one could not write a table. */
-    void check_tables()
-    {
-      run.tables.check();
-    }
     /** Numbers in a row of all tables together. */
     std::size_t n_columns() const;
     /** Largest residual of the energy balance so far [J]. */
@@ -94,7 +79,7 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &fields &boundary &histories &most_residual &most_kinetic
+      archive &fields &boundary &all_histories &most_residual &most_kinetic
           &largest_throughput &fields_time;
     }
 
@@ -120,7 +105,7 @@ namespace quoin
     BlockSystem<dim> &system;
     const RunContext &run;
     const bool resets; /**< whether a stage has a ResultReset */
-    Histories<dim> histories;
+    Histories<dim> all_histories;
     const TimeControl row_times, field_times;
     RootTable &history_table, &energy_table;
     RootTable *far_field_table = nullptr, *convergence_table = nullptr,
