@@ -158,9 +158,9 @@ namespace quoin
         {
           const unsigned int cell = face.cells[side];
           if (!face.is_own[side]
-              || materials[model.material_of_cell(cell)].rigid)
+              || materials[material_of_cell(model, cell)].rigid)
             continue;
-          const unsigned int material = model.material_of_cell(cell);
+          const unsigned int material = material_of_cell(model, cell);
           const double young          = materials[material].elastic.young;
           const auto &corners         = nodes.cells().nodes[cell];
           double shortest             = infinity;
@@ -359,7 +359,7 @@ namespace quoin
         return;
       std::vector<unsigned int> is_used(parameters.model.materials.size(), 0);
       for (unsigned int c = 0; c < model.nodes().cells().size(); ++c)
-        is_used[model.material_of_cell(c)] = 1;
+        is_used[material_of_cell(model, c)] = 1;
       dealii::Utilities::MPI::max(is_used, model.nodes().communicator(),
                                   is_used);
       for (unsigned int m = 0; m < is_used.size(); ++m)

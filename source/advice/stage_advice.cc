@@ -416,7 +416,7 @@ namespace quoin
                 nodes.point(cell[k]).distance(nodes.point(cell[l])));
         std::sort(edges.begin(), edges.end());
         const double edge   = edges[dim == 2 ? 1 : 2];
-        CellSize<dim> &size = sizes[model.material_of_cell(c)];
+        CellSize<dim> &size = sizes[material_of_cell(model, c)];
         if (edge > size.edge)
           size = { edge, nodes.point(cell[0]) };
       }

@@ -5,17 +5,53 @@
 #include <quoin/application/run.h>
 #include <quoin/base/parameter_file.h>
 #include <quoin/base/wall_clock.h>
+#include <quoin/block_problem/block_problem.h>
+#include <quoin/boundary_problem/boundary_problem.h>
+#include <quoin/mesh/gmsh_reader.h>
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/json_file.h>
 
 #include <nlohmann/json.hpp>
 
+#include <cctype>
 #include <fstream>
 #include <sstream>
 
 namespace quoin
 {
+  namespace
+  {
+    /** The mesh of a file, or of a generated geometry. */
+    AnyMeshData read_mesh_data(const Parameters &parameters,
+                               const MPI_Comm communicator)
+    {
+      const GeneratedGeometry &made = parameters.generated;
+      if (made.geometry.empty())
+        return read_any_gmsh(parameters.mesh_file, communicator,
+                             parameters.dimension, parameters.cells);
+      std::string section = made.name;
+      section[0]          = std::toupper(section[0]);
+      return mesh_gmsh_geometry(made.geometry, "section " + section,
+                                communicator, parameters.cells);
+    }
+
+    /** The kind of problem that @p parameters describe. */
+    std::unique_ptr<Problem> make_problem(const Parameters &parameters,
+                                          const RunContext &run)
+    {
+      if (parameters.is_boundary_model)
+        return std::make_unique<BoundaryProblem>(parameters, run);
+      AnyMeshData mesh = read_mesh_data(parameters, run.communicator);
+      if (auto *plane = std::get_if<MeshData<2>>(&mesh))
+        return std::make_unique<BlockProblem<2>>(parameters, std::move(*plane),
+                                                 run);
+      check_three_dimensions(parameters);
+      return std::make_unique<BlockProblem<3>>(
+          parameters, std::move(std::get<MeshData<3>>(mesh)), run);
+    }
+  } // namespace
+
   Run::Run(const Parameters &parameters, const RunOptions &options,
            const MPI_Comm communicator)
     : parameters(parameters), options(options), communicator(communicator),

@@ -3,6 +3,8 @@
 
 #include <quoin/base/parameter_entries.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -52,7 +54,7 @@ namespace quoin
     return prm != nullptr;
   }
 
-  std::string ParameterEntries::default_text(const std::vector<double> &values)
+  std::string default_text(const std::vector<double> &values)
   {
     std::string result;
     for (const double value : values)
@@ -128,7 +130,7 @@ namespace quoin
   {
     if (!declare(name, value ? "yes" : "no",
                  dealii::Patterns::Selection("yes|no|true|false"), sentence))
-      value = section->flag(name);
+      value = section->text(name) == "yes" || section->text(name) == "true";
   }
 
   void ParameterEntries::text(const std::string &name, std::string &value,
@@ -151,7 +153,20 @@ namespace quoin
       std::vector<std::pair<std::string, std::string>> &value,
       const std::string &must_be, const std::string &sentence, bool *const all)
   {
-    if (!declare(name, "", Text("list of pairs a:b"), sentence))
-      value = section->pairs(name, must_be, all);
+    if (declare(name, "", Text("list of pairs a:b"), sentence))
+      return;
+    value.clear();
+    for (const std::string &pair : section->list(name))
+    {
+      if (all != nullptr && pair == "all")
+      {
+        *all = true;
+        continue;
+      }
+      const auto words = dealii::Utilities::split_string_list(pair, ':');
+      if (words.size() != 2 || words[0].empty() || words[1].empty())
+        section->fail(name, must_be);
+      value.emplace_back(words[0], words[1]);
+    }
   }
 } // namespace quoin

@@ -54,11 +54,6 @@ namespace quoin
     return prm.get(name);
   }
 
-  bool ParameterSection::flag(const std::string &name) const
-  {
-    return text(name) == "yes" || text(name) == "true";
-  }
-
   double ParameterSection::number(const std::string &name) const
   {
     note(prm, path, name);
@@ -109,12 +104,6 @@ namespace quoin
     return value;
   }
 
-  unsigned int ParameterSection::integer(const std::string &name) const
-  {
-    note(prm, path, name);
-    return static_cast<unsigned int>(prm.get_integer(name));
-  }
-
   std::vector<std::string> ParameterSection::list(const std::string &name) const
   {
     auto words = split_string_list(text(name), ',');
@@ -124,40 +113,6 @@ namespace quoin
       if (word.empty())
         fail(name, "has nothing before or between commas: remove a comma.");
     return words;
-  }
-
-  std::vector<std::vector<double>>
-  ParameterSection::rows(const std::string &name, const std::size_t n_columns,
-                         const std::string &must_be) const
-  {
-    std::vector<std::vector<double>> result;
-    for (const std::string &row : split_string_list(text(name), ';'))
-    {
-      result.push_back(finite_numbers(split_string_list(row, ',')));
-      if (result.back().size() != n_columns)
-        fail(name, must_be);
-    }
-    return result;
-  }
-
-  std::vector<std::pair<std::string, std::string>>
-  ParameterSection::pairs(const std::string &name, const std::string &must_be,
-                          bool *const all) const
-  {
-    std::vector<std::pair<std::string, std::string>> result;
-    for (const std::string &pair : list(name))
-    {
-      if (all != nullptr && pair == "all")
-      {
-        *all = true;
-        continue;
-      }
-      const auto words = split_string_list(pair, ':');
-      if (words.size() != 2 || words[0].empty() || words[1].empty())
-        fail(name, must_be);
-      result.emplace_back(words[0], words[1]);
-    }
-    return result;
   }
 
   std::vector<double>
@@ -184,5 +139,27 @@ namespace quoin
   {
     const auto parent = std::filesystem::path(file_name).parent_path();
     return parent.empty() ? "./" : parent.string() + "/";
+  }
+
+  std::vector<std::vector<double>> number_rows(const ParameterSection &section,
+                                               const std::string &name,
+                                               const std::size_t n_columns,
+                                               const std::string &must_be)
+  {
+    std::vector<std::vector<double>> result;
+    for (const std::string &row : split_string_list(section.text(name), ';'))
+    {
+      result.push_back(finite_numbers(split_string_list(row, ',')));
+      if (result.back().size() != n_columns)
+        section.fail(name, must_be);
+    }
+    return result;
+  }
+
+  std::string in_folder(const ParameterSection &section,
+                        const std::string &path)
+  {
+    return !path.empty() && path.front() == '/' ? path
+                                                : section.folder() + path;
   }
 } // namespace quoin

@@ -5,8 +5,8 @@
 #define quoin_source_contact_contact_pack_h
 
 #include <quoin/contact/contact_state.h>
-#include <quoin/joints/composite_lanes.h>
-#include <quoin/joints/coulomb_lanes.h>
+#include <quoin/joint_laws/composite_lanes.h>
+#include <quoin/joint_laws/coulomb_lanes.h>
 
 #include <cstddef>
 #include <cstring>

@@ -122,6 +122,58 @@ namespace quoin
     return result;
   }
 
+  template <>
+  void ScaledMasses<2>::find_beam_masses(const Model<2> &model, const double dt,
+                                         Beams &beams, const State<2> &state)
+  {
+    beams.find_masses(dt, state);
+    double eigenvalue                 = beams.largest_eigenvalue(state);
+    const std::vector<double> springs = beams.interface_bound(state);
+    for (unsigned int i = 0; i < springs.size(); ++i)
+    {
+      if (springs[i] == 0.)
+        continue;
+      if (dt > 0.)
+        nodes[i] = std::max(nodes[i], model.stability().mass_for(i, dt)
+                                          + 0.25 * dt * dt * springs[i]);
+      eigenvalue = std::max(eigenvalue,
+                            model.stability().squared_frequency(i, nodes[i])
+                                + springs[i] / nodes[i]);
+    }
+    beam_eigenvalue = eigenvalue;
+  }
+
+  template <int dim>
+  ScaledMasses<dim>::ScaledMasses(const Model<dim> &model,
+                                  const double time_step, Beams *const beams,
+                                  const State<dim> &state)
+    : nodes(model.mass())
+  {
+    const RigidBlocks &rigid = model.rigid_blocks();
+    rigid_factor.resize(rigid.n_blocks(), 1.);
+    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+    {
+      double &factor = rigid_factor[b];
+      factor
+          = time_step > 0. ? model.stability().rigid_factor(b, time_step) : 1.;
+      for (unsigned int i = rigid.block(b).begin; i < rigid.block(b).end; ++i)
+        nodes[i] *= factor;
+    }
+    if (time_step > 0.)
+      for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
+        nodes[i] = std::max(nodes[i], model.stability().mass_for(i, time_step));
+    if constexpr (dim == 2)
+      if (beams)
+        find_beam_masses(model, time_step, *beams, state);
+    if (time_step == 0.)
+      return;
+    BeamMasses of_beams;
+    if constexpr (dim == 2)
+      if (beams)
+        of_beams = beams->masses(state);
+    added = find_added_mass(model, nodes, rigid_factor, of_beams, time_step);
+  }
+
   template AddedMass find_added_mass(const Model<2> &,
                                      const std::vector<double> &,
                                      const std::vector<double> &,
@@ -130,4 +182,6 @@ namespace quoin
                                      const std::vector<double> &,
                                      const std::vector<double> &,
                                      const BeamMasses &, double);
+  template struct ScaledMasses<2>;
+  template struct ScaledMasses<3>;
 } // namespace quoin

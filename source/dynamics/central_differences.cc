@@ -18,44 +18,15 @@ namespace quoin
     /** Factor of its coefficient in one step [-]. */
     constexpr double adaptive_change = 1.005;
 
-    /** Inverse of the rows and columns of @p matrix, positive definite, that
-        are @p free; 0 elsewhere. */
     template <int dim>
-    dealii::Tensor<2, dim> inverse_of_free(dealii::Tensor<2, dim> matrix,
-                                           const std::array<bool, dim> &free)
+    double norm(const dealii::Tensor<1, dim> &f)
     {
-      dealii::Tensor<2, dim> inverse;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-        {
-          inverse[d][e] = d == e;
-          if (!free[d] || !free[e])
-            matrix[d][e] = d == e;
-        }
-      // Gauss and Jordan; no pivots are needed.
-      for (unsigned int k = 0; k < dim; ++k)
-      {
-        const double pivot = matrix[k][k];
-        for (unsigned int e = 0; e < dim; ++e)
-        {
-          matrix[k][e] /= pivot;
-          inverse[k][e] /= pivot;
-        }
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double factor = matrix[d][k];
-          for (unsigned int e = 0; e < dim && d != k; ++e)
-          {
-            matrix[d][e] -= factor * matrix[k][e];
-            inverse[d][e] -= factor * inverse[k][e];
-          }
-        }
-      }
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!free[d])
-          inverse[d][d] = 0.;
-      return inverse;
+      double square = 0.;
+      for (const double component : f.v)
+        square += component * component;
+      return std::sqrt(square);
     }
+
   } // namespace
 
   template <int dim>
@@ -79,71 +50,6 @@ namespace quoin
                                ? state.adaptive_damping
                                : stage.mass_coefficient;
     return result;
-  }
-
-  template <int dim>
-  double kinetic_energy(const NodeMap<dim> &nodes,
-                        const std::vector<double> &mass,
-                        const AlignedArray<dealii::Tensor<1, dim>> &before,
-                        const AlignedArray<dealii::Tensor<1, dim>> &after,
-                        const double share)
-  {
-    double kinetic = 0.;
-    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double v = before[i][d];
-        kinetic += 0.5 * mass[i] * v * (v + share * (after[i][d] - v));
-      }
-    return kinetic;
-  }
-
-  template <int dim>
-  double kinetic_energy(const std::vector<NodeMass<dim>> &masses,
-                        const AlignedArray<dealii::Tensor<1, dim>> &before,
-                        const AlignedArray<dealii::Tensor<1, dim>> &after,
-                        const double share)
-  {
-    double kinetic = 0.;
-    for (const auto &[i, mass] : masses)
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-        {
-          const double v = before[i][e];
-          kinetic += 0.5 * before[i][d] * mass[d][e]
-                     * (v + share * (after[i][e] - v));
-        }
-    return kinetic;
-  }
-
-  template <int dim>
-  double squared_change(const std::vector<NodeMass<dim>> &masses,
-                        const AlignedArray<dealii::Tensor<1, dim>> &before,
-                        const AlignedArray<dealii::Tensor<1, dim>> &after)
-  {
-    double sum = 0.;
-    for (const auto &[i, mass] : masses)
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-          sum += (after[i][d] - before[i][d]) * mass[d][e]
-                 * (after[i][e] - before[i][e]);
-    return sum;
-  }
-
-  template <int dim>
-  double squared_change(const NodeMap<dim> &nodes,
-                        const std::vector<double> &mass,
-                        const AlignedArray<dealii::Tensor<1, dim>> &before,
-                        const AlignedArray<dealii::Tensor<1, dim>> &after)
-  {
-    double sum = 0.;
-    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double change = after[i][d] - before[i][d];
-        sum += mass[i] * change * change;
-      }
-    return sum;
   }
 
   template <int dim>
@@ -217,27 +123,7 @@ namespace quoin
       }
       constraint->bind(std::move(positions));
     }
-    heavy.clear();
-    for (const NodeMass<dim> &each : added)
-    {
-      if (absent[each.node])
-        continue;
-      HeavyNode node{};
-      node.captured = std::lower_bound(moved.begin(), moved.end(), each.node)
-                      - moved.begin();
-      CapturedNode<dim> &moving  = captured[node.captured];
-      moving.has_added_mass      = true;
-      node.mass                  = each.mass;
-      dealii::Tensor<2, dim> all = each.mass;
-      std::array<bool, dim> free;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        all[d][d] += moving.mass;
-        free[d] = !moving.owner[d];
-      }
-      node.inverse = inverse_of_free<dim>(all, free);
-      heavy.push_back(node);
-    }
+    heavy.capture(added, absent, captured);
 
     const auto first_at = [&](const unsigned int node) {
       return std::lower_bound(moved.begin(), moved.end(), node) - moved.begin();
@@ -415,6 +301,16 @@ namespace quoin
   }
 
   template <int dim>
+  void CentralDifferences<dim>::advance_blocks(State<dim> &state,
+                                               const StepContext &context,
+                                               const bool balance,
+                                               StepSums &sums)
+  {
+    advance_tiles(state, context, balance, sums);
+    advance_shared_nodes(state, context, balance, sums);
+  }
+
+  template <int dim>
   void CentralDifferences<dim>::advance_tiles(State<dim> &state,
                                               const StepContext &context,
                                               const bool balance,
@@ -479,7 +375,7 @@ namespace quoin
       constraints[i]->correct(context, captured, state);
       clock.lap(constraint_phases[i]);
     }
-    move_heavy_nodes(state, context);
+    heavy.move(context, captured, state);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       constraints[i]->account(context, captured, state);
@@ -496,61 +392,6 @@ namespace quoin
           state.pending.damping -= 0.5 * context.dt * node.viscous[d] * v1;
         }
     clock.lap(phases.loads);
-  }
-
-  template <int dim>
-  void CentralDifferences<dim>::move_heavy_nodes(State<dim> &state,
-                                                 const StepContext &context)
-  {
-    const double h = context.dt_velocity, a = 0.5 * h * context.mass_damping;
-    for (HeavyNode &each : heavy)
-    {
-      CapturedNode<dim> &node         = captured[each.captured];
-      dealii::Tensor<1, dim> &v1      = state.velocity[node.node];
-      const dealii::Tensor<1, dim> v0 = node.velocity;
-      // Prescribed components accelerate the water, too.
-      dealii::Tensor<1, dim> force = node.force;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-          if (node.owner[e])
-            force[d] -= each.mass[d][e] * (v1[e] - v0[e]) / h;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        if (node.owner[d])
-          continue;
-        double acceleration = 0.;
-        for (unsigned int e = 0; e < dim; ++e)
-          acceleration += each.inverse[d][e] * force[e];
-        v1[d] = (1. - a) / (1. + a) * v0[d] + h / (1. + a) * acceleration;
-        state.nodes[node.node].u[d] = node.displacement[d] + context.dt * v1[d];
-      }
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-        {
-          if (node.owner[d] || node.owner[e])
-            continue;
-          const double mass = each.mass[d][e] + (d == e ? node.mass : 0.);
-          const double drag
-              = -0.5 * context.mass_damping * mass * (v0[e] + v1[e]);
-          state.energy.damping -= 0.5 * context.dt_before * drag * v0[d];
-          state.pending.damping -= 0.5 * context.dt * drag * v1[d];
-        }
-      each.acceleration = (v1 - v0) / h;
-      node.force -= each.mass * each.acceleration;
-    }
-  }
-
-  template <int dim>
-  dealii::Tensor<1, dim>
-  CentralDifferences<dim>::inertia_force(const NodeMass<dim> &mass) const
-  {
-    const auto found
-        = std::lower_bound(heavy.begin(), heavy.end(), mass.node,
-                           [&](const HeavyNode &each, const unsigned int node)
-                           { return captured[each.captured].node < node; });
-    if (found == heavy.end() || captured[found->captured].node != mass.node)
-      return {};
-    return -(mass.mass * found->acceleration);
   }
 
   template <int dim>
@@ -654,38 +495,6 @@ namespace quoin
   template class CentralDifferences<3>;
   template StepContext step_context(const State<2> &, const StageParameters &,
                                     double);
-  template double kinetic_energy(const NodeMap<2> &,
-                                 const std::vector<double> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &,
-                                 double);
-  template double kinetic_energy(const std::vector<NodeMass<2>> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &,
-                                 double);
-  template double squared_change(const std::vector<NodeMass<2>> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &);
-  template double kinetic_energy(const std::vector<NodeMass<3>> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &,
-                                 double);
-  template double squared_change(const std::vector<NodeMass<3>> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &);
-  template double squared_change(const NodeMap<2> &,
-                                 const std::vector<double> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &);
   template StepContext step_context(const State<3> &, const StageParameters &,
                                     double);
-  template double kinetic_energy(const NodeMap<3> &,
-                                 const std::vector<double> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &,
-                                 double);
-  template double squared_change(const NodeMap<3> &,
-                                 const std::vector<double> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &);
 } // namespace quoin

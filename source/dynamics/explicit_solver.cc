@@ -4,14 +4,26 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/explicit_solver.h>
-#include <quoin/dynamics/loading_rate.h>
+#include <quoin/dynamics/kinetic_energy.h>
 #include <quoin/dynamics/state_checks.h>
+#include <quoin/loading/constraint_checks.h>
+#include <quoin/loading/loading_rate.h>
+#include <quoin/model/block_placement.h>
+#include <quoin/model/contact_bounds.h>
+#include <quoin/model/material_waves.h>
+#include <quoin/water/joint_flow.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace quoin
 {
+  namespace
+  {
+    /** Critical time steps in which forces may change, see quiet_time(). */
+    constexpr double least_quiet_steps = 2000.;
+  } // namespace
+
   template <int dim>
   ExplicitSolver<dim>::ExplicitSolver(
       Model<dim> &model, const std::vector<LoadParameters> &loads,
@@ -21,57 +33,19 @@ namespace quoin
     : Solver<dim>(model, loads, std::move(far_field), std::move(static_field)),
       block_contacts(model.contacts()),
       stepper(model.nodes(), model.blocks(), time_shares),
-      node_mass(model.mass()), all_stages(stages)
+      node_mass(model.mass()), water(model, loads), all_stages(stages)
   {
     if constexpr (dim == 2)
       if (model.parameters().contact.has_box)
         box = std::make_unique<const ModelBox>(model);
-    for (const LoadParameters &load : loads)
-      if (load.has_added_mass)
-      {
-        if constexpr (dim == 2)
-          reservoirs.emplace_back(load, model.nodes(), model.thickness());
-        else
-          throw InputError("section 'Loads/" + load.name
-                           + "': 'Added mass' is known in two dimensions "
-                             "alone. Set it to 'none'.");
-      }
   }
 
   template <int dim>
   std::array<double, 3>
   ExplicitSolver<dim>::resultant(const std::string &load) const
   {
-    if (!this->has_added_mass(load))
-      return Solver<dim>::resultant(load);
-    std::array<double, 3> sums{};
-    for (unsigned int r = 0; r < reservoir_masses.size(); ++r)
-      for (const NodeMass<dim> &mass : reservoir_masses[r])
-      {
-        if (reservoirs[r].name() != load)
-          continue;
-        const dealii::Tensor<1, dim> force = stepper.inertia_force(mass);
-        for (unsigned int d = 0; d < dim; ++d)
-          sums[d] += force[d];
-        if constexpr (dim == 2)
-        {
-          const dealii::Point<2> p = model.nodes().point(mass.node);
-          sums[2] += p[0] * force[1] - p[1] * force[0];
-        }
-      }
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM,
-                  communicator);
-    return sums;
-  }
-
-  template <int dim>
-  double ExplicitSolver<dim>::added_water() const
-  {
-    double trace = 0.;
-    for (const NodeMass<dim> &each : water_mass)
-      for (unsigned int d = 0; d < dim; ++d)
-        trace += each.mass[d][d];
-    return sum(trace);
+    return all.has_added_mass(load) ? water.resultant(load, stepper)
+                                    : Solver<dim>::resultant(load);
   }
 
   template <int dim>
@@ -82,6 +56,249 @@ namespace quoin
       if (block_contacts)
         block_contacts->prepare(state);
   }
+
+  // -- a stage ----------------------------------------------------------------
+
+  template <int dim>
+  void ExplicitSolver<dim>::scale_masses(const StageParameters &stage,
+                                         const double start, State<dim> &state)
+  {
+    const RigidBlocks &rigid = model.rigid_blocks();
+    rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
+    if constexpr (dim == 2)
+      if (all.beams)
+        all.beams->begin_stage(stage.name, state);
+    const auto kinetic = [&]()
+    {
+      double energy = rigid.kinetic_energy(
+          rigid_stage, state.template get<RigidBlockStates>(),
+          state.template get<RigidBlockStates>(), 1.);
+      for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
+        for (const double v : state.velocity[i].v)
+          energy += 0.5 * node_mass[i] * v * v;
+      energy += quoin::kinetic_energy(water.masses(), state.velocity,
+                                      state.velocity, 1.);
+      if constexpr (dim == 2)
+        if (all.beams)
+          energy += all.beams->kinetic_energy(state);
+      return energy;
+    };
+
+    const double before = kinetic();
+    const ScaledMasses<dim> masses(model, stage.scaled_time_step,
+                                   all.beams.get(), state);
+    node_mass               = masses.nodes;
+    rigid_stage.mass_factor = masses.rigid_factor;
+    added                   = masses.added;
+    water.begin_stage(stage, start);
+    // A change of the mass of moving nodes is external work.
+    state.energy.external += kinetic() - before;
+
+    double eigenvalue = std::max(masses.beam_eigenvalue,
+                                 model.stability().largest_eigenvalue(
+                                     node_mass, rigid_stage.mass_factor));
+    for (const MotionConstraint<dim> *constraint : acting.constraints)
+      eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
+    if constexpr (dim == 2)
+      if (all.water && all.water->acts())
+        eigenvalue += all.water->largest_eigenvalue(node_mass);
+    critical_step = StableTimeStep<dim>::critical(
+        dealii::Utilities::MPI::max(eigenvalue, communicator),
+        stage.stiffness_coefficient);
+    for (MotionConstraint<dim> *constraint : acting.constraints)
+      if (constraint->traits().is_rigid_body())
+      {
+        double inertia = 0., spin = 0.;
+        for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+        {
+          const RigidBlocks::Block &block = rigid.block(b);
+          if (!std::binary_search(constraint->nodes().begin(),
+                                  constraint->nodes().end(), block.begin))
+            continue;
+          const double factor = rigid_stage.mass_factor[b];
+          const double omega
+              = state.template get<RigidBlockStates>()[b].velocity[2];
+          inertia += factor * (block.inertia - block.lumped_inertia);
+          // Velocities of nodes follow from the mean arm of the last step.
+          const double mean
+              = 0.5 * (1. + std::cos(omega * state.previous_time_step));
+          spin
+              += factor * (block.inertia - mean * block.lumped_inertia) * omega;
+        }
+        constraint->set_mass(node_mass, inertia, spin);
+      }
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::collect_operators(const StageParameters *previous)
+  {
+    std::vector<ForceOperator<dim> *> forces, begun;
+    if constexpr (dim == 2)
+      if (block_contacts)
+        forces.push_back(block_contacts);
+    forces.push_back(&model.joints());
+    if constexpr (dim == 2)
+    {
+      if (!model.reinforcement().empty())
+        forces.push_back(&model.reinforcement());
+      if (all.beams)
+        forces.push_back(all.beams.get());
+    }
+    for (NodalLoad<dim> &load : all.nodal)
+      if (names_load(stage, load.name()))
+      {
+        forces.push_back(&load);
+        if (previous && !names_load(*previous, load.name()))
+          begun.push_back(&load);
+      }
+    if constexpr (dim == 2)
+      if (all.water && all.water->acts())
+      {
+        forces.push_back(all.water);
+        if (previous && !all.water->acts_in(previous->name))
+          begun.push_back(all.water);
+      }
+    if (acting.pattern)
+      forces.push_back(acting.pattern.get());
+    forces.push_back(&acting.release);
+    stepper.set_operators(forces, begun, acting.constraints, stage);
+  }
+
+  template <>
+  void ExplicitSolver<2>::set_dashpots()
+  {
+    const NodeMap<2> &nodes = model.nodes();
+    std::vector<std::uint8_t> is_held(nodes.table().n_blocks(), 0);
+    for (const MotionConstraint<2> *constraint : acting.constraints)
+      for (const unsigned int node : constraint->nodes())
+        is_held[nodes.block_of_node(node)] = 1;
+    const DashpotBlocks blocks = dashpot_blocks(model, is_held);
+    model.joints().set_blocks(blocks);
+    if (block_contacts)
+      block_contacts->set_blocks(blocks);
+    stepper.use_dashpots(model.joints().has_dashpots()
+                         || (block_contacts && block_contacts->has_dashpots()));
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::collect_constrained_nodes(const State<dim> &state)
+  {
+    // Nodes of absent blocks do not move with constraints.
+    stepper.capture_nodes(node_mass, water.masses(),
+                          absent_nodes(model, state));
+    refuse_shared_platens(model, acting.constraints, stage);
+    water.check_constraints(acting.constraints, stage);
+    if constexpr (dim == 2)
+    {
+      rigid_stage.held = find_held_blocks(model, acting.constraints, stage);
+      set_dashpots();
+    }
+    find_moved_blocks(state);
+    hold_removed_blocks(state);
+    if (acting.pattern)
+      acting.pattern->set_mobility(node_mass, acting.constraints, rigid_stage,
+                                   quiet_time());
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::release_duration(const State<dim> &state) const
+  {
+    const auto &held = state.template get<ConstructionState<dim>>().held;
+    if (std::none_of(held.begin(), held.end(),
+                     [](const HeldForces<dim> &item)
+                     { return item.left != item.left_at_end; }))
+      return 0.;
+    if (stage.release_duration >= 0.)
+      return stage.release_duration;
+    if (stage.end == StageEnd::time)
+      return stage.duration;
+
+    const double passage = passage_time();
+    if (passage == 0.)
+      throw InputError("section 'Stages/" + stage.name
+                       + "': 'Release duration = automatic' is twice the time "
+                         "of a shear wave along the model, but all blocks are "
+                         "rigid. Give a time in which forces may be released "
+                         "without shaking the blocks.");
+    return passage;
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::passage_time() const
+  {
+    // Masses that are added slow waves down.
+    return 2. * model.nodes().table().diagonal() / slowest_shear_wave(model)
+           * std::sqrt(1. + added.share);
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::quiet_time() const
+  {
+    return std::max(passage_time(), least_quiet_steps * critical_step);
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::automatic_ramp() const
+  {
+    // Weight and initial stress may be in balance from the start.
+    return stage.end == StageEnd::static_ratio
+                   && model.parameters().initial_stresses.empty()
+               ? quiet_time()
+               : 0.;
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::begin_stage(const StageParameters &new_stage,
+                                        const StageParameters *previous,
+                                        State<dim> &state)
+  {
+    this->activate(new_stage, state);
+    prepare(state);
+    if constexpr (dim == 2)
+      if (all.water)
+        all.water->begin_stage(stage.name, state);
+    scale_masses(stage, state.time, state);
+    acting.release = Release<dim>(state, stage, release_duration(state));
+    this->ramp_gravity(previous, automatic_ramp());
+    collect_operators(previous);
+    for (const auto &constraint : all.constraints)
+      if (!all.acts_in(*constraint, stage))
+        constraint->rest(state);
+    for (MotionConstraint<dim> *constraint : acting.constraints)
+      constraint->begin_stage(state,
+                              previous && all.acts_in(*constraint, *previous));
+    collect_constrained_nodes(state);
+    this->begin_pattern(previous, state);
+    state.stage_start      = state.time;
+    state.stage_step       = 0;
+    state.load_time        = 0.;
+    state.load_rate        = stage.slows_loads() ? loading_rate::start : 1.;
+    state.load_rate_growth = 1.;
+    state.adaptive_damping = 0.;
+    state.unbalanced_ratio = 1.;
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::resume_stage(const StageParameters &resumed,
+                                         const StageParameters *previous,
+                                         State<dim> &state)
+  {
+    this->activate(resumed, state);
+    if constexpr (dim == 2)
+      if (all.water)
+        all.water->resume_stage(state);
+    collect_operators(nullptr);
+    const State<dim> saved = state;
+    scale_masses(stage, state.stage_start, state);
+    acting.release = Release<dim>(state, stage, release_duration(state));
+    this->ramp_gravity(previous, automatic_ramp());
+    for (MotionConstraint<dim> *constraint : acting.constraints)
+      constraint->resume_stage(state);
+    state = saved;
+    collect_constrained_nodes(state);
+  }
+
+  // -- a step -----------------------------------------------------------------
 
   template <int dim>
   void ExplicitSolver<dim>::step(State<dim> &state, const Requests &wanted)
@@ -94,16 +311,14 @@ namespace quoin
     stepper.update_neighbours(state, context);
     // 2. Forces of contacts, joints and loads on all nodes.
     add_forces(state, context, requests, sums);
-    // 3. Forces of blocks and motion of their nodes, tile by tile.
-    stepper.advance_tiles(state, context, requests.balance, sums);
-    // 4. Motion of nodes that several processes share.
-    stepper.advance_shared_nodes(state, context, requests.balance, sums);
-    // 5. Rigid blocks and beams.
+    // 3. Forces of blocks and motion of their nodes.
+    stepper.advance_blocks(state, context, requests.balance, sums);
+    // 4. Rigid blocks and beams.
     advance_rigid_blocks(state, context, sums);
     advance_beams(state, context, sums);
-    // 6. Constrained nodes.
+    // 5. Constrained nodes.
     move_constrained_nodes(state, context);
-    // 7. Work and energies; exchange of ghost positions.
+    // 6. Work and energies; exchange of ghost positions.
     end_step(state, context, requests, sums);
   }
 
@@ -173,10 +388,10 @@ namespace quoin
   {
     if constexpr (dim == 2)
     {
-      if (!all_beams)
+      if (!all.beams)
         return;
       const Beams::Work work
-          = all_beams->advance(context, stage.damping != DampingType::none,
+          = all.beams->advance(context, stage.damping != DampingType::none,
                                stage.damping == DampingType::adaptive, state);
       sums.damping += work.damping;
       sums.unbalanced += work.unbalanced;
@@ -223,13 +438,14 @@ namespace quoin
       stored_before.kinetic
           = kinetic_energy(model.nodes(), node_mass, velocity_before,
                            state.velocity, share)
-            + kinetic_energy(water_mass, velocity_before, state.velocity, share)
+            + kinetic_energy(water.masses(), velocity_before, state.velocity,
+                             share)
             + model.rigid_blocks().kinetic_energy(
                 rigid_stage, rigid_before,
                 state.template get<RigidBlockStates>(), share);
       if constexpr (dim == 2)
-        if (all_beams)
-          stored_before.kinetic += all_beams->kinetic_energy(state, share);
+        if (all.beams)
+          stored_before.kinetic += all.beams->kinetic_energy(state, share);
       this->find_energies(state, stored_before);
     }
     if (context.dt_before != context.dt)
@@ -239,10 +455,11 @@ namespace quoin
       state.unbalanced_ratio = stepper.unbalanced_ratio(state, context, sums);
       this->check_finite(state);
       check_cells(model, state, stage.loads);
-      check_time_step(state);
+      check_time_step(model, state, stage, node_mass, rigid_stage.mass_factor,
+                      time_step);
       if constexpr (dim == 2)
-        if (all_beams)
-          all_beams->check_finite(state);
+        if (all.beams)
+          all.beams->check_finite(state);
     }
     time_shares.lap(energy_phase);
   }
@@ -261,13 +478,13 @@ namespace quoin
     double change
         = squared_change(model.nodes(), node_mass, velocity_before,
                          state.velocity)
-          + squared_change(water_mass, velocity_before, state.velocity)
+          + squared_change(water.masses(), velocity_before, state.velocity)
           + model.rigid_blocks().squared_change(
               rigid_stage, rigid_before,
               state.template get<RigidBlockStates>());
     if constexpr (dim == 2)
-      if (all_beams)
-        change += all_beams->squared_change(state);
+      if (all.beams)
+        change += all.beams->squared_change(state);
     state.pending.external += factor * change;
   }
 
@@ -311,8 +528,8 @@ namespace quoin
         block_contacts->update(context, state);
         block_contacts->add_forces(context, state, forces);
       }
-      if (all_beams)
-        all_beams->add_forces(context, state, forces);
+      if (all.beams)
+        all.beams->add_forces(context, state, forces);
       if (!model.reinforcement().empty())
         model.reinforcement().add_forces(context, state, forces);
     }
@@ -322,6 +539,125 @@ namespace quoin
     state.energy.plastic += model.blocks().update(
         state.nodes.data(), state.template get<PlasticHistory>());
     model.nodes().exchange().update_ghosts(state.velocity.data());
+  }
+
+  // -- blocks that go -------------------------------------------------------
+
+  template <int dim>
+  void ExplicitSolver<dim>::find_moved_blocks(const State<dim> &state)
+  {
+    std::vector<const MotionConstraint<dim> *> moving(
+        acting.constraints.begin(), acting.constraints.end());
+    for (std::size_t i = state.stage; i < all_stages.size(); ++i)
+      for (const auto &constraint : all.constraints)
+        if (names_load(all_stages[i], constraint->name()))
+          moving.push_back(constraint.get());
+    const NodeMap<dim> &nodes = model.nodes();
+    moved_blocks.assign(nodes.blocks().parts.size(), false);
+    for (const MotionConstraint<dim> *constraint : moving)
+      for (const unsigned int node : constraint->nodes())
+        moved_blocks[nodes.blocks().find(nodes.block_of_node(node))] = true;
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::hold_removed_blocks(const State<dim> &state)
+  {
+    if (state.block_marks.empty())
+      return;
+    const BlockTable<dim> &table = model.nodes().table();
+    for (unsigned int b = 0; b < table.n_blocks(); ++b)
+    {
+      if (!state.is_absent(b))
+        continue;
+      const auto nodes = owned_nodes(model, b);
+      stepper.hold(nodes);
+      if (table.is_rigid[b] && !nodes.empty())
+        rigid_stage.held[rigid_number(model, b)] = true;
+    }
+  }
+
+  template <>
+  void ExplicitSolver<2>::look_at_box(State<2> &state)
+  {
+    const auto found = box->find_outside(state, moved_blocks);
+    if (found.empty())
+      return;
+    blocks_outside.insert(blocks_outside.end(), found.begin(), found.end());
+    if (std::any_of(found.begin(), found.end(),
+                    [](const BlockOutside &block) { return block.removed; }))
+      remove_blocks(found, state);
+  }
+
+  template <>
+  void ExplicitSolver<2>::remove_blocks(const std::vector<BlockOutside> &found,
+                                        State<2> &state)
+  {
+    state.energy.plastic += model.blocks().update(state.nodes.data(),
+                                                  state.get<PlasticHistory>());
+    const auto stored = [&]()
+    {
+      return model.joints().stored_energy(state)
+             + model.blocks().stored_energy(state);
+    };
+    double energy = stored();
+    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
+      // Blocks still tied to a removed block were removed with it.
+      if (is_at_absent_block(model, i, state))
+        detach_joint(i, state.get<JointHistory>());
+    std::vector<unsigned int> blocks;
+    for (const BlockOutside &block : found)
+      if (block.removed)
+        blocks.push_back(block.block);
+    energy += stop_blocks(blocks, state);
+    bring_to_rest(model, blocks, state);
+    state.energy.external -= energy - stored();
+    hold_removed_blocks(state);
+    model.nodes().exchange().update_ghosts(state.nodes.data());
+    block_contacts->search_anew(state.get<ContactState>());
+  }
+
+  template <int dim>
+  double
+  ExplicitSolver<dim>::stop_blocks(const std::vector<unsigned int> &blocks,
+                                   State<dim> &state)
+  {
+    // The forces at the present positions have not yet done work over the last
+    // half step. Loads and damping will not, as the block is removed; the cells
+    // change strain and kinetic energy by the same amount, so both are taken as
+    // after that half step.
+    const double dt          = state.previous_time_step;
+    const RigidBlocks &rigid = model.rigid_blocks();
+    const auto rigid_0       = state.template get<RigidBlockStates>();
+    double energy            = 0.;
+    AlignedArray<dealii::Tensor<1, dim>> force(state.nodes.size(), dealii::Tensor<1, dim>());
+    for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
+      model.blocks().add_forces(tile, state.nodes.data(),
+                                state.template get<PlasticHistory>(),
+                                force.data());
+    model.nodes().exchange().add_to_owners(force.data());
+    for (const unsigned int block : blocks)
+    {
+      const auto nodes    = owned_nodes(model, block);
+      const bool is_rigid = model.nodes().table().is_rigid[block];
+      for (const unsigned int i : nodes)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          double &v = state.velocity[i][d];
+          if (!is_rigid)
+            energy += 0.5 * (node_mass[i] * v + dt * force[i][d]) * v;
+          v = 0.;
+        }
+      if (is_rigid && !nodes.empty())
+        std::fill_n(
+            state.template get<RigidBlockStates>()[rigid_number(model, block)]
+                .velocity,
+            3, 0.);
+    }
+    rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
+    return energy + rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
+           - rigid.kinetic_energy(rigid_stage,
+                                  state.template get<RigidBlockStates>(),
+                                  state.template get<RigidBlockStates>(), 1.);
   }
 
   template class ExplicitSolver<2>;

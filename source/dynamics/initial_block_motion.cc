@@ -56,7 +56,7 @@ namespace quoin
         throw InputError(where
                          + "is not there at the start, but is placed by 'Fill' "
                            "of a stage. Make them 0.");
-      for (const auto &constraint : solver.constraints())
+      for (const auto &constraint : solver.loads().constraints)
         if (names_load(first, constraint->name())
             && dealii::Utilities::MPI::max(
                    determines(*constraint, block.number, model, state) ? 1 : 0,

@@ -5,6 +5,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/state_checks.h>
+#include <quoin/model/model_stability.h>
 
 #include <algorithm>
 #include <array>
@@ -363,10 +364,60 @@ namespace quoin
     return farthest;
   }
 
+  template <int dim>
+  void check_time_step(const Model<dim> &model, const State<dim> &state,
+                       const StageParameters &stage,
+                       const std::vector<double> &node_mass,
+                       const std::vector<double> &mass_factor,
+                       const double time_step)
+  {
+    const MPI_Comm communicator   = model.nodes().communicator();
+    double flowed                 = 0.;
+    const PlasticHistory &plastic = state.template get<PlasticHistory>();
+    if constexpr (dim == 2)
+      for (const PlasticCell &cell : plastic.cells)
+        for (unsigned int i = 0; i < 3; ++i)
+          flowed = std::max(flowed, std::abs(cell.inverse_stretch[i]));
+    else
+      for (const SpacePlasticCell &cell : plastic.space_cells)
+        for (const double component : cell.inverse_stretch)
+          flowed = std::max(flowed, std::abs(component));
+    // The bound takes as long as some steps, and small flow changes it little.
+    if (dealii::Utilities::MPI::max(flowed, communicator) < 0.05)
+      return;
+    const double eigenvalue
+        = stability_at(model, state).largest_eigenvalue(node_mass, mass_factor);
+    const double critical = StableTimeStep<dim>::critical(
+        dealii::Utilities::MPI::max(eigenvalue, communicator),
+        stage.stiffness_coefficient);
+    if (time_step <= critical)
+      return;
+    throw ModelFailure(
+        "plastic flow has deformed cells so much that the critical time step "
+        "has fallen to "
+        + number_text(critical) + " s, below the time step of "
+        + number_text(time_step) + " s, at time " + number_text(state.time)
+        + " s of stage '" + stage.name
+        + "'. Lower 'Share of critical time step' (or 'Time step') in section "
+          "'Time stepping' to "
+        + number_text(0.8 * critical / time_step)
+        + " of its value, or further if cells continue to yield; if only few "
+          "cells have yielded, such as at a corner, make the mesh coarser "
+          "there. The last checkpoint is kept.");
+  }
+
   template void check_cells(const Model<2> &, const State<2> &,
                             const std::vector<std::string> &);
   template void check_cells(const Model<3> &, const State<3> &,
                             const std::vector<std::string> &);
   template FarthestNode<2> farthest_node(const Model<2> &, const State<2> &);
   template FarthestNode<3> farthest_node(const Model<3> &, const State<3> &);
+  template void check_time_step(const Model<2> &, const State<2> &,
+                                const StageParameters &,
+                                const std::vector<double> &,
+                                const std::vector<double> &, double);
+  template void check_time_step(const Model<3> &, const State<3> &,
+                                const StageParameters &,
+                                const std::vector<double> &,
+                                const std::vector<double> &, double);
 } // namespace quoin

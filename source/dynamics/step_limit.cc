@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/model/model_stability.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/step_limit.h>
@@ -70,8 +71,8 @@ namespace quoin
   {
     const NodeMap<dim> &nodes       = model.nodes();
     const MPI_Comm communicator     = nodes.communicator();
-    const StableTimeStep<dim> whole = model.stability_at(state),
-                              cells = model.stability_at(state, false);
+    const StableTimeStep<dim> whole = stability_at(model, state),
+                              cells = stability_at(model, state, false);
 
     std::vector<double> own; // omega^2 of nodes, then of rigid blocks
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)

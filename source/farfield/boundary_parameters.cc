@@ -48,9 +48,9 @@ namespace quoin
     {
       std::vector<std::array<double, 2>> result;
       for (const auto &row :
-           section.rows(name, 2,
-                        "must be points of two numbers, as in 0, 0; 1, 0; 1, "
-                        "2."))
+           number_rows(section, name, 2,
+                       "must be points of two numbers, as in 0, 0; 1, 0; 1, "
+                       "2."))
       {
         const std::array<double, 2> point{ { row[0], row[1] } };
         if (!result.empty() && result.back() == point)

@@ -194,8 +194,8 @@ namespace quoin
       // Points of joints that close and open in turn with every iteration must
       // not hold up a trial that asks whether the model keeps moving.
       const double given
-          = water && water->acts()
-                    && water->parameters().flow == FlowKind::transient
+          = all.water && all.water->acts()
+                    && all.water->parameters().flow == FlowKind::transient
                 ? std::min(parameters.force_ratio, flow_force_ratio)
                 : parameters.force_ratio;
       const double tolerance
@@ -269,9 +269,9 @@ namespace quoin
     broken.assign(model.joints().n_points(), 0);
     iteration  = 0;
     last_share = 1.;
-    if (water && water->acts())
-      water->begin_step(state);
-    for (NodalLoad<2> &load : all_loads)
+    if (all.water && all.water->acts())
+      all.water->begin_step(state);
+    for (NodalLoad<2> &load : all.nodal)
       load.find_crack(state);
     unsigned int n_cracks = 0;
     // Brittle joints break one after the other, each at an equilibrium, and
@@ -287,11 +287,11 @@ namespace quoin
       if (n_without_new_water == 0)
         n_without_new_water = iteration;
       followed = JointFlow::Followed::balanced;
-      if (water && water->acts())
-        followed = water->follow(
+      if (all.water && all.water->acts())
+        followed = all.water->follow(
             configuration.nodes.data(),
             { configuration.load_time, stage_start + configuration.load_time });
-      for (NodalLoad<2> &load : all_loads)
+      for (NodalLoad<2> &load : all.nodal)
         if (names_load(stage, load.name()) && !load.follow_crack(balance.state)
             && followed == JointFlow::Followed::balanced)
           followed = ++n_cracks > most_cracks ? JointFlow::Followed::lost

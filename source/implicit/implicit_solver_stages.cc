@@ -9,6 +9,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/model/free_bodies.h>
 #include <quoin/implicit/implicit_solver.h>
+#include <quoin/loading/constraint_checks.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/water/joint_flow.h>
 
@@ -117,8 +118,8 @@ namespace quoin
   {
     stage_start = state.stage_start;
     check_no_free_bodies(model, acting.constraints, stage.name, state);
-    refuse_shared_platens();
-    held_blocks = find_held_blocks();
+    refuse_shared_platens(model, acting.constraints, stage);
+    held_blocks = find_held_blocks(model, acting.constraints, stage);
     hold_absent_blocks(state);
     rests = false;
     if (stage.end == StageEnd::time)
@@ -135,13 +136,13 @@ namespace quoin
         state, stage,
         stage.release_duration >= 0. ? stage.release_duration : stage_duration);
     rests = rests && !acting.release.changes()
-            && !(water && water->changes(stage_start, stage_duration));
+            && !(all.water && all.water->changes(stage_start, stage_duration));
     dof_map = std::make_unique<DofMap>(model, acting.constraints, held_blocks,
                                        state, acting.pattern != nullptr);
     equilibrium = std::make_unique<Equilibrium>(
         model, *dof_map, operators_with(acting.nodal), path_sets, stage_start,
-        far.elastostatic_acts ? far.elastostatic : nullptr,
-        acting.pattern.get(), all_beams.get());
+        all.far.elastostatic_acts ? all.far.elastostatic : nullptr,
+        acting.pattern.get(), all.beams.get());
     // Multigrid gives no factor.
     linear_solver = std::make_unique<LinearSolver>(
         acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
@@ -158,8 +159,8 @@ namespace quoin
     if (!model.reinforcement().empty())
       result.push_back(&model.reinforcement());
     result.insert(result.end(), loads.begin(), loads.end());
-    if (water && water->acts())
-      result.push_back(water);
+    if (all.water && all.water->acts())
+      result.push_back(all.water);
     result.push_back(&acting.release);
     return result;
   }
@@ -185,18 +186,18 @@ namespace quoin
     activate(new_stage, state);
     ramp_gravity(previous, 0.);
     prepare(state);
-    if (water)
-      water->begin_stage(stage.name, state);
-    if (all_beams)
-      all_beams->begin_stage(stage.name, state);
-    for (const auto &constraint : all_constraints)
-      if (!acts_in(*constraint, stage))
+    if (all.water)
+      all.water->begin_stage(stage.name, state);
+    if (all.beams)
+      all.beams->begin_stage(stage.name, state);
+    for (const auto &constraint : all.constraints)
+      if (!all.acts_in(*constraint, stage))
         constraint->rest(state);
     for (MotionConstraint<2> *constraint : acting.constraints)
     {
       constraint->set_mass(model.mass());
       constraint->begin_stage(state,
-                              previous && acts_in(*constraint, *previous));
+                              previous && all.acts_in(*constraint, *previous));
     }
     state.stage_start          = state.time;
     state.stage_step           = 0;
@@ -213,8 +214,8 @@ namespace quoin
                                     State<2> &state)
   {
     activate(resumed, state);
-    if (water)
-      water->resume_stage(state);
+    if (all.water)
+      all.water->resume_stage(state);
     ramp_gravity(previous, 0.);
     for (MotionConstraint<2> *constraint : acting.constraints)
       constraint->set_mass(model.mass());
@@ -248,7 +249,7 @@ namespace quoin
     ImplicitState &now = state.get<ImplicitState>();
     now.released       = 1.;
     now.step           = first_load_step();
-    if (far.elastostatic_acts && !state.get<StaticFarFieldState>().active)
+    if (all.far.elastostatic_acts && !state.get<StaticFarFieldState>().active)
     {
       // It holds the forces that its boundary carried until now, without loads
       // that begin here.
@@ -261,7 +262,7 @@ namespace quoin
                           path_sets, stage_start, nullptr);
       without.find_forces(state, configuration_of(dof_map->bodies(), state),
                           broken, balance);
-      far.elastostatic->hold(balance.force.data(), state);
+      all.far.elastostatic->hold(balance.force.data(), state);
     }
     equilibrium->find_forces(state, configuration_of(dof_map->bodies(), state),
                              broken, balance);
@@ -299,8 +300,8 @@ namespace quoin
 
     write_configuration(dof_map->bodies(), configuration, state);
     state.copy_slices(balance.state);
-    if (water)
-      water->commit(state);
+    if (all.water)
+      all.water->commit(state);
     RigidBlockStage rigid;
     rigid.held = held_blocks;
     model.rigid_blocks().follow_nodes(rigid, state);
@@ -315,13 +316,13 @@ namespace quoin
     if (state.load_time == stage_duration
         && state.get<ImplicitState>().path_length == 0. && balance.path == 0.)
       state.time = state.stage_start + stage_duration;
-    if (far.elastostatic_acts)
+    if (all.far.elastostatic_acts)
       state.get<StaticFarFieldState>().stored = balance.far_field_energy;
     EnergyAccounts stored;
     for (const ForceOperator<2> *each : operators_with(acting.nodal))
       each->add_stored_energy(state, stored);
-    if (all_beams)
-      all_beams->add_stored_energy(state, stored);
+    if (all.beams)
+      all.beams->add_stored_energy(state, stored);
     find_energies(state, stored);
   }
 
@@ -350,11 +351,11 @@ namespace quoin
         if (!held.empty())
           energy.damping -= mean * held[2 * i + d] * u;
       }
-    if (far.elastostatic_acts)
-      for (unsigned int k = 0; k < far.elastostatic->nodes().size(); ++k)
+    if (all.far.elastostatic_acts)
+      for (unsigned int k = 0; k < all.far.elastostatic->nodes().size(); ++k)
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const unsigned int node = far.elastostatic->nodes()[k];
+          const unsigned int node = all.far.elastostatic->nodes()[k];
           energy.external
               += state.get<StaticFarFieldState>().held[2 * k + d]
                  * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
@@ -404,7 +405,7 @@ namespace quoin
                                                       : balance.drives[b][d];
       return result;
     }
-    if (*found == far.elastostatic)
+    if (*found == all.far.elastostatic)
       result = balance.far_field_force;
     else if ((*found)->traits().kind == MotionKind::prescribed)
       for (const DofMap::Prescribed &given : dof_map->prescribed())

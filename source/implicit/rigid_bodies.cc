@@ -3,7 +3,7 @@
 
 #include <quoin/base/plane_geometry.h>
 #include <quoin/base/packed_vectors.h>
-#include <quoin/dynamics/load_pattern.h>
+#include <quoin/loading/load_pattern.h>
 #include <quoin/implicit/rigid_bodies.h>
 #include <quoin/loads/platen.h>
 #include <quoin/blocks/rigid_blocks.h>

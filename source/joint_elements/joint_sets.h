@@ -6,7 +6,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
-#include <quoin/joints/joint_parameters.h>
+#include <quoin/joint_laws/joint_parameters.h>
 #include <quoin/mesh/kind_text.h>
 #include <quoin/mesh/node_map.h>
 

@@ -3,8 +3,8 @@
 
 #include <quoin/operators/archive.h>
 #include <quoin/joint_elements/matched_joints.h>
-#include <quoin/joints/composite_lanes.h>
-#include <quoin/joints/coulomb_lanes.h>
+#include <quoin/joint_laws/composite_lanes.h>
+#include <quoin/joint_laws/coulomb_lanes.h>
 
 #include <algorithm>
 

@@ -22,10 +22,10 @@ namespace quoin
     {
       std::vector<WallOpening> openings;
       for (const auto &v :
-           section.rows("Openings", 4,
-                        "must be four numbers for each opening: left, right, "
-                        "first course, last course; openings are separated by "
-                        "semicolons."))
+           number_rows(section, "Openings", 4,
+                       "must be four numbers for each opening: left, right, "
+                       "first course, last course; openings are separated by "
+                       "semicolons."))
       {
         if (!(0. <= v[0] && v[0] < v[1]))
           section.fail("Openings", "must have 0 <= left < right <= 'Length'.");

@@ -75,7 +75,8 @@ namespace quoin
             "with x ascending, or an expression of x [m].";
       const bool is_level
           = section.text("Surface").find_first_of(",;") == std::string::npos;
-      const auto rows = section.rows("Surface", is_level ? 1 : 2, must_be);
+      const auto rows
+          = number_rows(section, "Surface", is_level ? 1 : 2, must_be);
       if (rows.empty())
         section.fail("Surface", must_be);
       if (is_level)

@@ -5,7 +5,7 @@
 #include <quoin/base/nearest_name.h>
 #include <quoin/mesh/kind_text.h>
 #include <quoin/model/block_placement.h>
-#include <quoin/model/contact_bounds.h>
+#include <quoin/model/model_stability.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
@@ -13,6 +13,45 @@
 
 namespace quoin
 {
+  ModelProperties reduced(ModelProperties properties, const double factor,
+                          const bool joints, const bool blocks)
+  {
+    if (joints)
+      for (JointSetParameters &set : properties.joints)
+        set.law = reduced(set.law, factor);
+    if (blocks)
+      for (MaterialParameters &material : properties.materials)
+        material = reduced(material, factor);
+    return properties;
+  }
+
+  template <int dim>
+  CellStiffness<dim> stiffness_of(const MaterialParameters &material,
+                                  const PlaneAssumption plane)
+  {
+    if constexpr (dim == 2)
+      return plane_stiffness(material.elastic, plane);
+    else
+      return space_stiffness(material.elastic);
+  }
+
+  template <int dim>
+  std::vector<std::optional<YieldLaw<dim>>>
+  laws_of(const std::vector<MaterialParameters> &materials,
+          const PlaneAssumption plane)
+  {
+    std::vector<std::optional<YieldLaw<dim>>> laws(materials.size());
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      if (materials[m].strength)
+      {
+        if constexpr (dim == 2)
+          laws[m].emplace(materials[m].elastic, *materials[m].strength, plane);
+        else
+          laws[m].emplace(materials[m].elastic, *materials[m].strength);
+      }
+    return laws;
+  }
+
   template <int dim>
   Model<dim>::Model(const NodeMap<dim> &nodes,
                     const ModelParameters &parameters)
@@ -25,7 +64,7 @@ namespace quoin
     absent_group
         = find_groups(table, parameters.absent_groups, "section 'Stages'");
     find_masses();
-    find_initial_stress();
+    start_stress = find_initial_stress(nodes, given, now, absent_group);
     pack_blocks({});
     if constexpr (dim == 2)
     {
@@ -35,8 +74,7 @@ namespace quoin
     }
     else
       matched_joints.prepare(nodes, now.joints);
-    if (!table.is_quadratic)
-      find_stable_step();
+    find_stable_step();
   }
 
   template <int dim>
@@ -99,44 +137,17 @@ namespace quoin
   }
 
   template <int dim>
-  CellStiffness<dim>
-  Model<dim>::stiffness_of(const MaterialParameters &material) const
-  {
-    if constexpr (dim == 2)
-      return plane_stiffness(material.elastic, given.plane);
-    else
-      return space_stiffness(material.elastic);
-  }
-
-  template <int dim>
-  std::vector<std::optional<YieldLaw<dim>>>
-  Model<dim>::laws_of(const std::vector<MaterialParameters> &materials) const
-  {
-    std::vector<std::optional<YieldLaw<dim>>> laws(materials.size());
-    for (unsigned int m = 0; m < materials.size(); ++m)
-      if (materials[m].strength)
-      {
-        if constexpr (dim == 2)
-          laws[m].emplace(materials[m].elastic, *materials[m].strength,
-                          given.plane);
-        else
-          laws[m].emplace(materials[m].elastic, *materials[m].strength);
-      }
-    return laws;
-  }
-
-  template <int dim>
   void Model<dim>::pack_blocks(const ConstructionState<dim> &construction)
   {
     BlockForcesData<dim> data;
     take_cells(node_map, data);
     for (const MaterialParameters &material : now.materials)
-      data.stiffness.push_back(stiffness_of(material));
+      data.stiffness.push_back(stiffness_of<dim>(material, given.plane));
     for (unsigned int c = 0; c < node_map.cells().n_deformable; ++c)
-      data.cell_stiffness.push_back(material_of_cell(c));
-    data.laws                         = laws_of(now.materials);
+      data.cell_stiffness.push_back(material_of_cell(*this, c));
+    data.laws = laws_of<dim>(now.materials, given.plane);
     const AlignedArray<double> stress = construction.initial_stress.empty()
-                                            ? packed_initial_stress()
+                                            ? start_stress.packed(node_map)
                                             : construction.initial_stress;
     constexpr unsigned int n          = ConstructionState<dim>::n_stresses;
     data.initial_stress.resize(stress.size() / n);
@@ -169,146 +180,28 @@ namespace quoin
         = std::make_unique<BlockContacts>(node_map, matched_joints, contacts);
   }
 
-  // -- the stable step -------------------------------------------------------
-
   template <int dim>
-  std::vector<const ForceOperator<dim> *> Model<dim>::stiff_operators() const
+  void Model<dim>::set_properties(const ModelProperties &properties,
+                                  const ConstructionState<dim> &construction)
   {
-    std::vector<const ForceOperator<dim> *> operators = { &block_forces };
-    if constexpr (dim == 2)
+    now = properties;
+    find_masses();
+    pack_blocks(construction);
+    matched_joints.set_laws(now.joints);
+    if (block_contacts)
     {
-      // Contacts stand for joints, too, which may become contacts.
-      if (block_contacts)
-        operators.push_back(block_contacts.get());
-      else
-        operators.push_back(&matched_joints);
-      if (!bars.empty())
-        operators.push_back(&bars);
+      block_contacts->set_laws(now.joints);
+      block_contacts->set_materials(now.material_of_group);
     }
-    else
-      operators.push_back(&matched_joints);
-    return operators;
-  }
-
-  template <int dim>
-  StableTimeStep<dim> Model<dim>::stability_at(const State<dim> &state,
-                                               const bool with_springs) const
-  {
-    std::vector<NodeStiffness<dim>> bound(node_map.n_local(),
-                                          NodeStiffness<dim>{});
-    const NodeRatio ratio = spring_ratio(state);
-    for (const ForceOperator<dim> *each : stiff_operators())
-      if (with_springs || each->is_internal())
-        each->add_stiffness_bound(state, ratio, bound);
-    node_map.exchange().add_to_owners(bound.data());
-    bound.resize(node_map.n_owned());
-    std::vector<double> rigid_bound;
-    if constexpr (dim == 2)
-    {
-      for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
-        rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
-      if (with_springs)
-        add_dashpot_bound(bound, rigid_bound);
-    }
-    std::fill(bound.begin() + node_map.n_deformable_nodes(), bound.end(),
-              NodeStiffness<dim>{});
-    StableTimeStep<dim> result(bound);
-    result.set_rigid_blocks(rigid_bound);
-    return result;
+    find_stable_step();
   }
 
   template <int dim>
   void Model<dim>::find_stable_step()
   {
-    stable_step
-        = std::make_unique<StableTimeStep<dim>>(stability_at(initial_state()));
-  }
-
-  template <>
-  NodeRatio Model<3>::spring_ratio(const State<3> &) const
-  {
-    return [this](const unsigned int a, const unsigned int b)
-    { return node_mass[a] / node_mass[b]; };
-  }
-
-  template <>
-  NodeRatio Model<2>::spring_ratio(const State<2> &state) const
-  {
-    const auto by_mass = [this](const unsigned int a, const unsigned int b)
-    { return node_mass[a] / node_mass[b]; };
-    const auto &is_rigid = node_map.table().is_rigid;
-    if (std::find(is_rigid.begin(), is_rigid.end(), true) == is_rigid.end())
-      return by_mass;
-
-    // omega^2 of each body, node or rigid block, if the other side of its
-    // joints were fixed. Springs are divided in the ratio of these, because a
-    // rigid block may have any number of them: no bound then exceeds the sum of
-    // those of two bodies.
-    std::vector<NodeStiffness<2>> springs(node_map.n_local(),
-                                          NodeStiffness<2>{});
-    for (const ForceOperator<2> *each : stiff_operators())
-      if (!each->is_internal())
-        each->add_stiffness_bound(
-            state, [](unsigned int, unsigned int) { return 0.; }, springs);
-    std::vector<double> own(node_map.n_local(), 0.);
-    for (unsigned int i = 0; i < node_map.n_deformable_nodes(); ++i)
-      own[i] = StableTimeStep<2>({ springs[i] })
-                   .largest_eigenvalue({ node_mass[i] });
-    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
-      std::fill(own.begin() + rigid.block(b).begin,
-                own.begin() + rigid.block(b).end,
-                rigid.largest_eigenvalue(b, springs));
-    node_map.exchange().update_ghosts(own.data());
-    return [this, by_mass, own](const unsigned int a, const unsigned int b)
-    {
-      const auto &is_rigid = node_map.table().is_rigid;
-      return is_rigid[node_map.block_of_node(a)]
-                     || is_rigid[node_map.block_of_node(b)]
-                 ? own[b] / own[a]
-                 : by_mass(a, b);
-    };
-  }
-
-  template <>
-  void Model<2>::add_dashpot_bound(std::vector<NodeStiffness<2>> &bound,
-                                   std::vector<double> &rigid_bound) const
-  {
-    if (std::none_of(now.joints.begin(), now.joints.end(),
-                     [](const JointSetParameters &set)
-                     { return set.damping.acts(); }))
-      return;
-    double impedance = 0.;
-    for (const auto &[p, s] : group_impedances(now, given.plane))
-      if (std::isfinite(p))
-        impedance = std::max(impedance, p);
-    DampingBound damping;
-    damping.dashpot.assign(node_map.n_deformable_nodes(), 0.);
-    damping.share.assign(node_map.table().n_blocks(), 0.);
-    for (const ForceOperator<2> *each : stiff_operators())
-      each->add_damping_bound(block_masses(node_map, node_mass), impedance,
-                              damping);
-    /** omega^2 of undamped steps as short as those with dashpots of the rate
-        c/m: h^2 omega^2 + 2 h rate = 4 there. */
-    const auto damped = [](const double eigenvalue, const double rate)
-    {
-      const double omega = rate + std::sqrt(rate * rate + eigenvalue);
-      return omega * omega;
-    };
-    for (unsigned int i = 0; i < node_map.n_deformable_nodes(); ++i)
-    {
-      const double own = StableTimeStep<2>({ bound[i] })
-                             .largest_eigenvalue({ node_mass[i] });
-      const double rate = damping.dashpot[i] / node_mass[i];
-      for (unsigned int c = 0; c < 2; ++c)
-        bound[i][c] += node_mass[i] * (damped(own, rate) - own);
-    }
-    const unsigned int first = node_map.blocks().n_deformable;
-    for (unsigned int r = 0; r < rigid_bound.size(); ++r)
-      // On springs of its own, between two others.
-      rigid_bound[r]
-          = damped(rigid_bound[r],
-                   damping.share[node_map.blocks().parts[first + r].number]
-                       * std::sqrt(8. * rigid_bound[r]));
+    if (!node_map.table().is_quadratic)
+      stable_step = std::make_unique<StableTimeStep<dim>>(
+          stability_at(*this, initial_state()));
   }
 
   template <int dim>
@@ -328,8 +221,8 @@ namespace quoin
     matched_joints.prepare(state);
     if constexpr (dim == 2)
       bars.prepare(state);
-    if (!face_stress.empty())
-      initialise_joints(matched_joints, face_stress, state);
+    if (!start_stress.faces.empty())
+      initialise_joints(matched_joints, start_stress.faces, state);
     if (std::find(absent_group.begin(), absent_group.end(), true)
         == absent_group.end())
       return state;
@@ -341,6 +234,15 @@ namespace quoin
         detach_joint(i, state.template get<JointHistoryOf<dim>>());
     return state;
   }
+
   template class Model<2>;
   template class Model<3>;
+  template CellStiffness<2> stiffness_of<2>(const MaterialParameters &,
+                                            PlaneAssumption);
+  template CellStiffness<3> stiffness_of<3>(const MaterialParameters &,
+                                            PlaneAssumption);
+  template std::vector<std::optional<YieldLaw<2>>>
+  laws_of<2>(const std::vector<MaterialParameters> &, PlaneAssumption);
+  template std::vector<std::optional<YieldLaw<3>>>
+  laws_of<3>(const std::vector<MaterialParameters> &, PlaneAssumption);
 } // namespace quoin

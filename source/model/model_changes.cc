@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// How a Model changes between stages.
-
 #include <quoin/blocks/cell_states.h>
-#include <quoin/model/model.h>
+#include <quoin/model/model_changes.h>
 
 #include <algorithm>
 
@@ -26,93 +24,57 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  AlignedArray<double> Model<dim>::packed_initial_stress() const
-  {
-    AlignedArray<double> result;
-    for (unsigned int c = 0;
-         c < node_map.cells().n_deformable && !cell_stress.empty(); ++c)
-      for (const double stress : cell_stress[c])
-        result.push_back(stress);
-    return result;
-  }
-
-  ModelProperties reduced(ModelProperties properties, const double factor,
-                          const bool joints, const bool blocks)
-  {
-    if (joints)
-      for (JointSetParameters &set : properties.joints)
-        set.law = reduced(set.law, factor);
-    if (blocks)
-      for (MaterialParameters &material : properties.materials)
-        material = reduced(material, factor);
-    return properties;
-  }
-
-  template <int dim>
-  void Model<dim>::set_properties(const ModelProperties &properties,
-                                  const ConstructionState<dim> &construction)
-  {
-    now = properties;
-    find_masses();
-    pack_blocks(construction);
-    matched_joints.set_laws(now.joints);
-    if (block_contacts)
-    {
-      block_contacts->set_laws(now.joints);
-      block_contacts->set_materials(now.material_of_group);
-    }
-    if (!node_map.table().is_quadratic)
-      find_stable_step();
-  }
-
-  template <int dim>
-  void Model<dim>::clear_initial_stress(const std::vector<bool> &groups,
-                                        ConstructionState<dim> &construction)
+  void clear_initial_stress(const Model<dim> &model,
+                            const std::vector<bool> &groups,
+                            ConstructionState<dim> &construction)
   {
     if (construction.initial_stress.empty())
-      construction.initial_stress = packed_initial_stress();
+      construction.initial_stress
+          = model.initial_stress().packed(model.nodes());
     auto &stress             = construction.initial_stress;
     constexpr unsigned int n = ConstructionState<dim>::n_stresses;
     for (unsigned int c = 0; n * c < stress.size(); ++c)
-      if (groups[node_map.cells().group[c]])
+      if (groups[model.nodes().cells().group[c]])
         std::fill_n(&stress[n * c], n, 0.);
   }
 
   template <int dim>
-  void Model<dim>::change_properties(const ModelProperties &properties,
-                                     State<dim> &state)
+  void change_properties(Model<dim> &model, const ModelProperties &properties,
+                         State<dim> &state)
   {
+    const BlockForces<dim> &blocks = model.blocks();
+    const LocalCells<dim> &local   = model.nodes().cells();
+    const PlaneAssumption plane    = model.parameters().plane;
     std::vector<CellStiffness<dim>> stiffness;
     for (const MaterialParameters &material : properties.materials)
-      stiffness.push_back(stiffness_of(material));
-    const auto laws          = laws_of(properties.materials);
+      stiffness.push_back(stiffness_of<dim>(material, plane));
+    const auto laws          = laws_of<dim>(properties.materials, plane);
     constexpr unsigned int n = ConstructionState<dim>::n_stresses;
     auto &initial = state.template get<ConstructionState<dim>>().initial_stress;
     PlasticHistory &plastic = state.template get<PlasticHistory>();
-    for (unsigned int c = 0; c < node_map.cells().n_deformable; ++c)
+    for (unsigned int c = 0; c < local.n_deformable; ++c)
     {
-      const unsigned int m
-          = properties.material_of_group[node_map.cells().group[c]];
-      const YieldLaw<dim> *law          = laws[m] ? &*laws[m] : nullptr;
-      const BlockForcesData<dim> &cells = block_forces.cell_data();
+      const unsigned int m     = properties.material_of_group[local.group[c]];
+      const YieldLaw<dim> *law = laws[m] ? &*laws[m] : nullptr;
+      const BlockForcesData<dim> &cells = blocks.cell_data();
       const auto *nodes                 = state.nodes.data();
-      const auto after = stress_of_strain(block_forces, nodes, c, stiffness[m]);
+      const auto after = stress_of_strain(blocks, nodes, c, stiffness[m]);
       CellStress<dim> bears;
       if (cells.law_of(c) && plastic.yielding[c] != 0)
       {
         // Its stress has nothing of the initial one any more.
         if (law && !(cells.stiffness_of(c) == stiffness[m]))
-          take_over_stress(block_forces, nodes, c, *law, plastic);
+          take_over_stress(blocks, nodes, c, *law, plastic);
         if (law)
           continue;
-        bears = turning_stress(block_forces, nodes, plastic, c);
-        forget_history(block_forces, c, plastic);
+        bears = turning_stress(blocks, nodes, plastic, c);
+        forget_history(blocks, c, plastic);
       }
       else
       {
         bears = cells.initial_stress_of(c);
         const auto before
-            = stress_of_strain(block_forces, nodes, c, cells.stiffness_of(c));
+            = stress_of_strain(blocks, nodes, c, cells.stiffness_of(c));
         for (unsigned int k = 0; k < n; ++k)
           bears[k] += before[k];
         if (law)
@@ -121,28 +83,24 @@ namespace quoin
           continue;
       }
       if (initial.empty())
-        initial = packed_initial_stress();
-      initial.resize(n * node_map.cells().n_deformable, 0.);
+        initial = model.initial_stress().packed(model.nodes());
+      initial.resize(n * local.n_deformable, 0.);
       for (unsigned int k = 0; k < n; ++k)
         initial[n * c + k] = bears[k] - after[k];
     }
-    set_properties(properties, state.template get<ConstructionState<dim>>());
-    keep_joint_tractions(matched_joints, state);
+    model.set_properties(properties,
+                         state.template get<ConstructionState<dim>>());
+    keep_joint_tractions(model.joints(), state);
   }
 
-  template AlignedArray<double> Model<2>::packed_initial_stress() const;
-  template void Model<2>::set_properties(const ModelProperties &,
-                                         const ConstructionState<2> &);
-  template void Model<2>::clear_initial_stress(const std::vector<bool> &,
-                                               ConstructionState<2> &);
-  template void Model<2>::change_properties(const ModelProperties &,
-                                            State<2> &);
-
-  template AlignedArray<double> Model<3>::packed_initial_stress() const;
-  template void Model<3>::set_properties(const ModelProperties &,
-                                         const ConstructionState<3> &);
-  template void Model<3>::clear_initial_stress(const std::vector<bool> &,
-                                               ConstructionState<3> &);
-  template void Model<3>::change_properties(const ModelProperties &,
-                                            State<3> &);
+  template void clear_initial_stress(const Model<2> &,
+                                     const std::vector<bool> &,
+                                     ConstructionState<2> &);
+  template void clear_initial_stress(const Model<3> &,
+                                     const std::vector<bool> &,
+                                     ConstructionState<3> &);
+  template void change_properties(Model<2> &, const ModelProperties &,
+                                  State<2> &);
+  template void change_properties(Model<3> &, const ModelProperties &,
+                                  State<3> &);
 } // namespace quoin

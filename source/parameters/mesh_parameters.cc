@@ -99,7 +99,7 @@ namespace quoin
         section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
                              "a bond, section 'Arch' a span, or section "
                              "'Rock' an outline.");
-      parameters.mesh_file = section.in_folder(parameters.mesh_file);
+      parameters.mesh_file = in_folder(section, parameters.mesh_file);
       std::error_code error; // a name may be too long for any file
       if (!std::filesystem::exists(parameters.mesh_file, error))
         section.fail("File",

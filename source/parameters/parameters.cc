@@ -161,8 +161,8 @@ namespace quoin
           // A factor may follow a table, options a record.
           name = name.substr(0, name.find(word == " table " ? " times " : " "));
           std::error_code error;
-          if (std::filesystem::is_regular_file(top.in_folder(name), error))
-            result.push_back(top.in_folder(name));
+          if (std::filesystem::is_regular_file(in_folder(top, name), error))
+            result.push_back(in_folder(top, name));
         }
       return result;
     }
@@ -174,7 +174,7 @@ namespace quoin
       const ParameterSection top(prm, parameters.file);
       ParameterEntries entries(top);
       enter_top(entries, parameters);
-      parameters.output_directory = top.in_folder(parameters.output_directory);
+      parameters.output_directory = in_folder(top, parameters.output_directory);
       if (parameters.is_implicit && parameters.is_boundary_model)
         top.fail("Solver",
                  "is for blocks: with 'Model = boundary elements' "

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/problems/block_problem.h>
-#include <quoin/problems/boundary_problem.h>
 #include <quoin/output/checkpoint.h>
+#include <quoin/problems/problem.h>
 
 #include <nlohmann/json.hpp>
 
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -64,37 +62,6 @@ namespace quoin
         shares += text_of(shares.empty() ? "" : ", ", phase, " ",
                           std::round(1e3 * share.get<double>()) / 10., " %");
     return "\ntime: " + shares;
-  }
-
-  namespace
-  {
-    /** The mesh of a file, or of a generated geometry. */
-    AnyMeshData read_mesh_data(const Parameters &parameters,
-                               const MPI_Comm communicator)
-    {
-      const GeneratedGeometry &made = parameters.generated;
-      if (made.geometry.empty())
-        return read_any_gmsh(parameters.mesh_file, communicator,
-                             parameters.dimension, parameters.cells);
-      std::string section = made.name;
-      section[0]          = std::toupper(section[0]);
-      return mesh_gmsh_geometry(made.geometry, "section " + section,
-                                communicator, parameters.cells);
-    }
-  } // namespace
-
-  std::unique_ptr<Problem> make_problem(const Parameters &parameters,
-                                        const RunContext &run)
-  {
-    if (parameters.is_boundary_model)
-      return std::make_unique<BoundaryProblem>(parameters, run);
-    AnyMeshData mesh = read_mesh_data(parameters, run.communicator);
-    if (auto *plane = std::get_if<MeshData<2>>(&mesh))
-      return std::make_unique<BlockProblem<2>>(parameters, std::move(*plane),
-                                               run);
-    check_three_dimensions(parameters);
-    return std::make_unique<BlockProblem<3>>(
-        parameters, std::move(std::get<MeshData<3>>(mesh)), run);
   }
 
   namespace

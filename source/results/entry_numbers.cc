@@ -24,12 +24,12 @@ namespace quoin
                               EntryNumbers &result)
     {
       const NodeMap<2> &nodes = model.nodes();
-      if (const FarField *far = solver.far_fields().elastodynamic)
+      if (const FarField *far = solver.loads().far.elastodynamic)
         result.own[FarFieldState::slice_name] = nodes_of(*far, nodes);
-      if (const StaticFarField *far = solver.far_fields().elastostatic)
+      if (const StaticFarField *far = solver.loads().far.elastostatic)
         result.own[StaticFarFieldState::slice_name] = nodes_of(*far, nodes);
 
-      if (const BlockContacts *contacts = solver.contacts())
+      if (const BlockContacts *contacts = model.contacts())
       {
         const std::string name = ContactState::slice_name;
         List &watched          = result.own[name];
@@ -65,7 +65,7 @@ namespace quoin
     result.cells.assign(cells.begin(),
                         cells.begin() + nodes.cells().n_deformable);
 
-    for (const auto &constraint : solver.constraints())
+    for (const auto &constraint : solver.loads().constraints)
       result.own[constraint->name()] = nodes_of(*constraint, nodes);
     List &blocks = result.own[RigidBlockStates::slice_name];
     for (unsigned int part = nodes.blocks().n_deformable;

@@ -69,7 +69,7 @@ namespace quoin
           fields.plastic_shear.push_back(is_rigid ? 0. : plastic.shear[own]);
         }
         fields.block.push_back(block);
-        fields.material.push_back(model.material_of_cell(own));
+        fields.material.push_back(material_of_cell(model, own));
       }
     }
     return fields;

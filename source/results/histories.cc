@@ -280,7 +280,7 @@ namespace quoin
     if constexpr (dim == 2)
       if (!block_probes.empty())
         of_blocks = std::make_unique<BlockHistories>(block_probes, named_blocks,
-                                                     model, solver.contacts());
+                                                     model, model.contacts());
   }
 
   template <int dim>
@@ -440,13 +440,13 @@ namespace quoin
   {
     const HistoryParameters &wanted = probe.parameters;
     const std::string section = "section 'Histories/" + wanted.name + "': ";
-    const auto &constraints   = solver.constraints();
+    const auto &constraints   = solver.loads().constraints;
     const auto found = std::find_if(constraints.begin(), constraints.end(),
                                     [&](const auto &constraint) {
                                       return constraint->name() == wanted.load;
                                     });
     if (wanted.quantity == HistoryQuantity::reaction
-        && solver.has_added_mass(wanted.load))
+        && solver.loads().has_added_mass(wanted.load))
       return;
     if (found == constraints.end())
       throw InputError(section + "'Load = " + wanted.load
@@ -574,7 +574,7 @@ namespace quoin
     if constexpr (dim == 2)
     {
       const HistoryParameters &wanted = probe.parameters;
-      const JointFlow &flow           = *solver.flow();
+      const JointFlow &flow           = *solver.loads().water;
       const auto &places              = flow.parameters().boundaries;
       if (const auto *place = find_named(places, wanted.water))
         probe.water_nodes = flow.nodes_at(place - places.data());
@@ -930,9 +930,9 @@ namespace quoin
     }
     for (unsigned int i = 0; i < n_columns; ++i)
       if (probes[i].parameters.quantity == HistoryQuantity::contacts
-          && solver.contacts())
+          && model.contacts())
         row[1 + i]
-            = solver.contacts()->n_touching(state.template get<ContactState>());
+            = model.contacts()->n_touching(state.template get<ContactState>());
     if constexpr (dim == 2)
       for (unsigned int i = 0; i < n_columns; ++i)
         if (probes[i].parameters.quantity == HistoryQuantity::open_joints)
@@ -994,7 +994,7 @@ namespace quoin
   template <>
   void Histories<2>::add_beam_values(const State<2> &state)
   {
-    const Beams *beams = solver.beams();
+    const Beams *beams = solver.loads().beams.get();
     if (!beams || dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;
     for (unsigned int i = 0; i < n_columns; ++i)
@@ -1026,7 +1026,7 @@ namespace quoin
   void Histories<2>::add_boundary_values(const State<2> &state,
                                          std::vector<double> &result) const
   {
-    const FarField &far  = *solver.far_fields().elastodynamic;
+    const FarField &far  = *solver.loads().far.elastodynamic;
     BoundaryState fields = boundary_state(far, state);
     // The row is for the time before the last step.
     const double since = (double(state.get<FarFieldState>().substep) - 1.)

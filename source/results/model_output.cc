@@ -24,11 +24,11 @@ namespace quoin
   {
     blocks.start();
     joints.start();
-    if (solver.contacts())
+    if (model.contacts())
       contacts.start();
     if (!model.reinforcement().empty())
       cables.start();
-    if (solver.beams())
+    if (solver.loads().beams)
       beams.start();
   }
 
@@ -42,11 +42,11 @@ namespace quoin
     joints.write(time, joint_fields(model, now));
     if constexpr (dim == 2)
     {
-      if (const BlockContacts *all = solver.contacts())
+      if (const BlockContacts *all = model.contacts())
         contacts.write(time, contact_fields(model.joints(), *all, now));
       if (!model.reinforcement().empty())
         cables.write(time, model.reinforcement().fields(now));
-      if (const Beams *all = solver.beams())
+      if (const Beams *all = solver.loads().beams.get())
         beams.write(time, *all, now);
     }
   }

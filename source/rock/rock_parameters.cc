@@ -25,9 +25,9 @@ namespace quoin
     {
       Polygon points;
       for (const auto &row :
-           section.rows(name, 2,
-                        "must be points x, y [m], separated by semicolons, "
-                        "such as '0, 0; 10, 0; 10, 5'."))
+           number_rows(section, name, 2,
+                       "must be points x, y [m], separated by semicolons, "
+                       "such as '0, 0; 10, 0; 10, 5'."))
         points.emplace_back(row[0], row[1]);
       if (points.size() < at_least)
         section.fail(name, "needs at least " + std::to_string(at_least)

@@ -455,6 +455,12 @@ namespace quoin
     return stage;
   }
 
+  bool names_load(const StageParameters &stage, const std::string &name)
+  {
+    return std::find(stage.loads.begin(), stage.loads.end(), name)
+           != stage.loads.end();
+  }
+
   const StageParameters *
   previous_stage(const std::vector<StageParameters> &stages,
                  const unsigned int index)

@@ -27,8 +27,8 @@ namespace quoin
                     [&](const ParameterSection &section)
                     {
                       for (const auto &row :
-                           section.rows("Points", 2,
-                                        "must be points such as '0, 0; 4, 0'."))
+                           number_rows(section, "Points", 2,
+                                       "must be points such as '0, 0; 4, 0'."))
                         beam.points.push_back({ { row[0], row[1] } });
                     });
       entries.integer("Segments", beam.n_segments, 1,

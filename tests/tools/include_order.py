@@ -4,9 +4,10 @@
 """Modules include only from their left:
 
 base < mesh, layout, materials, joints, elastodynamics
-     < operators, rock, tdbem < joint_elements, output, signals
-     < blocks, contact, loads, water < farfield, stages, reinforcement, structures < model < dynamics
-     < implicit, results < parameters < advice < problems < application
+     < joint_laws, operators, rock, tdbem < joint_elements, output, signals
+     < blocks, contact, loads, water < farfield, stages, reinforcement, structures < model
+     < loading < dynamics < implicit, results < parameters < advice < problems
+     < block_problem, boundary_problem < application
 
 Modules between the same two signs do not know each other.
 """
@@ -16,10 +17,10 @@ import sys
 
 TIERS = [["base"],
          ["mesh", "layout", "materials", "joints", "elastodynamics"],
-         ["operators", "rock", "tdbem"],
+         ["joint_laws", "operators", "rock", "tdbem"],
          ["joint_elements", "output", "signals"],
-         ["blocks", "contact", "loads", "water"], ["farfield", "stages", "reinforcement", "structures"], ["model"], ["dynamics"], ["implicit", "results"], ["parameters"],
-         ["advice"], ["problems"], ["application"]]
+         ["blocks", "contact", "loads", "water"], ["farfield", "stages", "reinforcement", "structures"], ["model"], ["loading"], ["dynamics"], ["implicit", "results"], ["parameters"],
+         ["advice"], ["problems"], ["block_problem", "boundary_problem"], ["application"]]
 RANK = {name: rank for rank, tier in enumerate(TIERS) for name in tier}
 # boundary elements stand alone: a boundary polyline, nothing of the blocks
 NARROWER = {"elastodynamics": {"base"}, "tdbem": {"base", "elastodynamics"}}

@@ -14,6 +14,9 @@
 
 namespace quoin
 {
+  /** Numbers as in parameter files: 1e6, not 1e+06. */
+  std::string default_text(const std::vector<double> &values);
+
   /**
    * The entries of one section of a parameter file, each written once, by a
    * function
@@ -80,7 +83,7 @@ namespace quoin
       if (declare(name, std::to_string(value),
                   dealii::Patterns::Integer(least, most), sentence))
         return;
-      value = static_cast<Integer>(section->integer(name));
+      value = static_cast<Integer>(section->number(name));
     }
 
     /** yes, no, true or false. */
@@ -91,7 +94,9 @@ namespace quoin
     /** Comma-separated words. */
     void list(const std::string &name, std::vector<std::string> &value,
               const std::string &sentence);
-    /** Pairs a:b, see ParameterSection::pairs(). */
+    /** Pairs of words, such as "a:b, c:d". If @p all is given, the word 'all'
+        may stand among them and sets it. @p must_be: the end of the message
+        about anything else. */
     void pairs(const std::string &name,
                std::vector<std::pair<std::string, std::string>> &value,
                const std::string &must_be, const std::string &sentence,
@@ -141,9 +146,6 @@ namespace quoin
       if (!declare(name, preset, dealii::Patterns::Anything(), sentence))
         read(*section);
     }
-
-    /** Numbers as in parameter files: 1e6, not 1e+06. */
-    static std::string default_text(const std::vector<double> &values);
 
   private:
     /** Declares the entry unless a section is read; returns whether it did. */

@@ -30,18 +30,15 @@ namespace quoin
     /** The subsection @p name of @p parent. */
     ParameterSection(const ParameterSection &parent, const std::string &name);
 
-    ParameterSection(const ParameterSection &)            = delete;
-    ParameterSection &operator=(const ParameterSection &) = delete;
+    ParameterSection(const ParameterSection &) = delete;
     ~ParameterSection();
 
     std::string text(const std::string &name) const;
-    bool flag(const std::string &name) const;
     double number(const std::string &name) const;
     double positive(const std::string &name) const;
     double nonnegative(const std::string &name) const;
     /** A number in [low, high]. */
     double within(const std::string &name, double low, double high) const;
-    unsigned int integer(const std::string &name) const;
     /** Comma-separated words; empty if the text is. */
     std::vector<std::string> list(const std::string &name) const;
     /** Exactly N comma-separated numbers. */
@@ -53,20 +50,6 @@ namespace quoin
       std::copy(values.begin(), values.end(), result.begin());
       return result;
     }
-    /**
-     * Rows of @p n_columns finite numbers, such as "0, 0; 10, 5"; none if the
-     * text is empty. @p must_be: the end of the message about anything else.
-     */
-    std::vector<std::vector<double>> rows(const std::string &name,
-                                          std::size_t n_columns,
-                                          const std::string &must_be) const;
-    /**
-     * Pairs of words, such as "a:b, c:d". If @p all is given, the word 'all'
-     * may stand among them and sets it. @p must_be: as of rows().
-     */
-    std::vector<std::pair<std::string, std::string>>
-    pairs(const std::string &name, const std::string &must_be,
-          bool *all = nullptr) const;
     /** One of the words of @p table, returned as its value. */
     template <typename Enum>
     Enum choice(const std::string &name,
@@ -106,11 +89,6 @@ namespace quoin
     }
     /** Folder of the parameter file, with a trailing slash. */
     std::string folder() const;
-    /** @p path in that folder, unless it is absolute. */
-    std::string in_folder(const std::string &path) const
-    {
-      return !path.empty() && path.front() == '/' ? path : folder() + path;
-    }
 
   private:
     std::vector<double> number_list(const std::string &name,
@@ -121,6 +99,20 @@ namespace quoin
     std::string path;
     bool entered;
   };
+
+  /**
+   * The value of @p name as rows of @p n_columns finite numbers, such as
+   * "0, 0; 10, 5"; none if the text is empty. @p must_be: the end of the
+   * message about anything else.
+   */
+  std::vector<std::vector<double>> number_rows(const ParameterSection &section,
+                                               const std::string &name,
+                                               std::size_t n_columns,
+                                               const std::string &must_be);
+
+  /** @p path in the folder of the parameter file, unless it is absolute. */
+  std::string in_folder(const ParameterSection &section,
+                        const std::string &path);
 } // namespace quoin
 
 #endif

@@ -12,7 +12,7 @@
 #include <quoin/joint_elements/matched_joints.h>
 #include <quoin/contact/pair_copies.h>
 #include <quoin/joint_elements/pair_dashpots.h>
-#include <quoin/joints/joint_parameters.h>
+#include <quoin/joint_laws/joint_parameters.h>
 
 #include <array>
 #include <memory>

@@ -4,7 +4,7 @@
 #ifndef quoin_contact_contact_sets_h
 #define quoin_contact_contact_sets_h
 
-#include <quoin/joints/joint_parameters.h>
+#include <quoin/joint_laws/joint_parameters.h>
 
 #include <string>
 #include <vector>

@@ -49,6 +49,33 @@ namespace quoin
                             const std::vector<double> &mass,
                             const std::vector<double> &factors,
                             const BeamMasses &beams, double time_step);
+
+  /** Masses of a stage, with which its critical step is at least the one that
+      mass scaling is to reach. */
+  template <int dim>
+  struct ScaledMasses
+  {
+    /** @p time_step: that step [s]; 0: nothing is scaled. @p beams: of the run,
+        or null; finds their masses, too. Collective. */
+    ScaledMasses(const Model<dim> &model, double time_step, Beams *beams,
+                 const State<dim> &state);
+
+    std::vector<double> nodes;        /**< of local nodes [kg] */
+    std::vector<double> rigid_factor; /**< of the mass of rigid blocks [-] */
+    AddedMass added;
+    /** Largest one of beams and of the nodes to which they are tied
+        [1/s^2]. */
+    double beam_eigenvalue = 0.;
+
+  private:
+    void find_beam_masses(const Model<dim> &model, double time_step,
+                          Beams &beams, const State<dim> &state);
+  };
+
+  template <>
+  void ScaledMasses<2>::find_beam_masses(const Model<2> &model,
+                                         double time_step, Beams &beams,
+                                         const State<2> &state);
 } // namespace quoin
 
 #endif

@@ -7,6 +7,7 @@
 #include <quoin/base/phase_clock.h>
 #include <quoin/blocks/block_forces.h>
 #include <quoin/blocks/node_update.h>
+#include <quoin/dynamics/heavy_nodes.h>
 #include <quoin/stages/stage_parameters.h>
 #include <quoin/loads/hydrodynamic_mass.h>
 #include <quoin/loads/motion_constraint.h>
@@ -28,37 +29,6 @@ namespace quoin
   template <int dim>
   StepContext step_context(const State<dim> &state,
                            const StageParameters &stage, double dt);
-
-  /**
-   * Kinetic energy [J] of the nodes of deformable blocks on this rank,
-   * 1/2 v m w, where w is @p share of the way from the velocities @p before to
-   * those of @p after [m/s]; @p mass of nodes [kg].
-   */
-  template <int dim>
-  double kinetic_energy(const NodeMap<dim> &nodes,
-                        const std::vector<double> &mass,
-                        const AlignedArray<dealii::Tensor<1, dim>> &before,
-                        const AlignedArray<dealii::Tensor<1, dim>> &after,
-                        double share);
-
-  /** Kinetic energy of the added @p masses alone [J]; arguments as above. */
-  template <int dim>
-  double kinetic_energy(const std::vector<NodeMass<dim>> &masses,
-                        const AlignedArray<dealii::Tensor<1, dim>> &before,
-                        const AlignedArray<dealii::Tensor<1, dim>> &after,
-                        double share);
-
-  /** Sum over these nodes of mass times squared change of velocity [J]. */
-  template <int dim>
-  double squared_change(const NodeMap<dim> &nodes,
-                        const std::vector<double> &mass,
-                        const AlignedArray<dealii::Tensor<1, dim>> &before,
-                        const AlignedArray<dealii::Tensor<1, dim>> &after);
-  /** Sum of the added @p masses times squared change of velocity [J]. */
-  template <int dim>
-  double squared_change(const std::vector<NodeMass<dim>> &masses,
-                        const AlignedArray<dealii::Tensor<1, dim>> &before,
-                        const AlignedArray<dealii::Tensor<1, dim>> &after);
 
   /**
    * Steps of the nodes of deformable blocks by central differences with
@@ -106,14 +76,10 @@ namespace quoin
     void update_neighbours(State<dim> &state, const StepContext &context);
     /** Adds forces of operators and books their last work. Collective. */
     void add_forces(State<dim> &state, const StepContext &context);
-    /** Adds the forces of blocks tile by tile and moves the nodes that no other
-        rank shares, while forces on shared nodes are exchanged; @p balance:
-        also sums the unbalanced forces. */
-    void advance_tiles(State<dim> &state, const StepContext &context,
-                       bool balance, StepSums &sums);
-    /** Moves the nodes of blocks that lie on several ranks. Collective. */
-    void advance_shared_nodes(State<dim> &state, const StepContext &context,
-                              bool balance, StepSums &sums);
+    /** Adds the forces of blocks and moves their nodes; @p balance: also sums
+        the unbalanced forces. Collective. */
+    void advance_blocks(State<dim> &state, const StepContext &context,
+                        bool balance, StepSums &sums);
     /** Captures the constrained nodes of rigid blocks; returns the forces on
         all local nodes, for RigidBlocks::advance(). */
     NodeForces<dim> capture_rigid_blocks(const State<dim> &state);
@@ -135,7 +101,10 @@ namespace quoin
     double unbalanced_ratio(const State<dim> &state, const StepContext &context,
                             StepSums sums) const;
     /** Force on @p node by the inertia of @p mass in the last step [N]. */
-    dealii::Tensor<1, dim> inertia_force(const NodeMass<dim> &mass) const;
+    dealii::Tensor<1, dim> inertia_force(const NodeMass<dim> &mass) const
+    {
+      return heavy.inertia_force(mass);
+    }
     /** Adds the recoverable energy of operators, of this rank. */
     void add_stored_energy(const State<dim> &state,
                            EnergyAccounts &energies) const;
@@ -147,6 +116,13 @@ namespace quoin
     }
     /** Finds CapturedNode::begun in the stage's first step. */
     void find_begun_forces(const StepContext &context, State<dim> &state);
+    /** Adds the forces of blocks tile by tile and moves the nodes that no other
+        rank shares, while forces on shared nodes are exchanged. */
+    void advance_tiles(State<dim> &state, const StepContext &context,
+                       bool balance, StepSums &sums);
+    /** Moves the nodes of blocks that lie on several ranks. Collective. */
+    void advance_shared_nodes(State<dim> &state, const StepContext &context,
+                              bool balance, StepSums &sums);
     /** Moves free nodes of @p range; @p first_captured: into captured_begin.
      */
     void advance_range(State<dim> &state, const StepContext &context,
@@ -159,9 +135,6 @@ namespace quoin
     void finish_sum(OwnerSum<dealii::Tensor<1, dim>> &sum,
                     AlignedArray<dealii::Tensor<1, dim>> &values);
     void capture(CapturedNode<dim> &node, const State<dim> &state) const;
-    /** Moves the free components of nodes with added masses, after all that is
-        prescribed. */
-    void move_heavy_nodes(State<dim> &state, const StepContext &context);
     void adapt_damping(State<dim> &state, const StepContext &context,
                        const DampingWork &work) const;
 
@@ -190,16 +163,7 @@ namespace quoin
     std::vector<unsigned int> held;   /**< ascending */
 
     std::vector<CapturedNode<dim>> captured; /**< ascending nodes */
-    /** A node with an added mass. */
-    struct HeavyNode
-    {
-      unsigned int captured;       /**< its position there */
-      dealii::Tensor<2, dim> mass; /**< added mass [kg] */
-      /** Inverse of all mass of the free components, 0 elsewhere [1/kg]. */
-      dealii::Tensor<2, dim> inverse;
-      dealii::Tensor<1, dim> acceleration; /**< in the last step [m/s^2] */
-    };
-    std::vector<HeavyNode> heavy; /**< ascending nodes */
+    HeavyNodes<dim> heavy;
     /** First entry of each tile, of shared nodes, and of rigid blocks. */
     std::vector<unsigned int> captured_begin;
 

@@ -5,6 +5,7 @@
 #define quoin_dynamics_explicit_solver_h
 
 #include <quoin/dynamics/added_mass.h>
+#include <quoin/dynamics/added_water.h>
 #include <quoin/dynamics/central_differences.h>
 #include <quoin/operators/state.h>
 #include <quoin/model/model_box.h>
@@ -78,10 +79,6 @@ namespace quoin
     void resume_stage(const StageParameters &stage,
                       const StageParameters *previous, State<dim> &state);
 
-    /** Throws an InputError about added mass of a reservoir whose level changes
-        in the stage that begins with @p state. */
-    void check_levels(const State<dim> &state) const;
-
     /** Critical time step of the stage [s], the same on all ranks. */
     double critical_time_step() const
     {
@@ -91,14 +88,15 @@ namespace quoin
         shear wave along its diagonal and back, at least two thousand critical
         time steps, which joints are too soft for waves alone to tell [s]. */
     double quiet_time() const;
-    /** Mass added by mass scaling, by the mass of the model [-]. */
-    double added_mass_share() const
-    {
-      return added.share;
-    }
+    /** What mass scaling adds in the stage. */
     const AddedMass &added_mass() const
     {
       return added;
+    }
+    /** The water that moves with faces in the stage. */
+    const AddedWater<dim> &added_water() const
+    {
+      return water;
     }
 
     void set_time_step(const double dt)
@@ -130,40 +128,18 @@ namespace quoin
 
     /** The force of a load; with added mass it has that of its inertia. */
     std::array<double, 3> resultant(const std::string &load) const override;
-    /** Water that moves with faces in the stage [kg]; collective. */
-    double added_water() const;
-
-    const BlockContacts *contacts() const override
-    {
-      return block_contacts;
-    }
 
   private:
     using Solver<dim>::model;
     using Solver<dim>::communicator;
-    using Solver<dim>::all_constraints;
-    using Solver<dim>::all_loads;
-    using Solver<dim>::all_beams;
+    using Solver<dim>::all;
     using Solver<dim>::stage;
     using Solver<dim>::acting;
-    using Solver<dim>::water;
     using Solver<dim>::time_shares;
-    using Solver<dim>::acts_in;
-    using Solver<dim>::sum;
 
     /** Finds the masses in @p stage, which begins at @p start [s]. */
     void scale_masses(const StageParameters &stage, double start,
                       State<dim> &state);
-    /** Finds the water that moves with faces in @p stage. */
-    void find_water(const StageParameters &stage, double start);
-    /** Refuses constraints at nodes with added mass that do not know of it. */
-    void refuse_heavy_constraints() const;
-    /** Finds the masses of beams, gives nodes of blocks at liners the @p mass
-        [kg] that the scaled step of @p stage needs, and returns a bound of the
-        omega^2 of both [1/s^2]. */
-    double find_beam_masses(const StageParameters &stage,
-                            const State<dim> &state,
-                            std::vector<double> &mass) const;
     /** Collects what acts in the stage; @p previous: stage before, or null. */
     void collect_operators(const StageParameters *previous);
     void collect_constrained_nodes(const State<dim> &state);
@@ -182,9 +158,6 @@ namespace quoin
     /** Fixes the nodes of removed blocks. */
     void hold_removed_blocks(const State<dim> &state);
     void look_at_box(State<dim> &state);
-    /** Throws a ModelFailure if plastic flow has changed cells so much that the
-        step is no longer stable; collective. */
-    void check_time_step(const State<dim> &state) const;
     /**
      * Leaves blocks at rest and without strain, and books the energy that they
      * had as external work.
@@ -219,10 +192,7 @@ namespace quoin
 
     CentralDifferences<dim> stepper;
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
-    std::vector<HydrodynamicMass> reservoirs;
-    /** Added masses of each reservoir in this stage, and of all together. */
-    std::vector<std::vector<NodeMass<dim>>> reservoir_masses;
-    std::vector<NodeMass<dim>> water_mass;
+    AddedWater<dim> water;
     double critical_step = 0.;
     AddedMass added;
     double time_step = 0.;
@@ -247,22 +217,7 @@ namespace quoin
                        load_phase   = time_shares.phase("loads");
   };
 
-  template <>
-  double ExplicitSolver<2>::find_beam_masses(const StageParameters &stage,
-                                             const State<2> &state,
-                                             std::vector<double> &mass) const;
-  template <>
-  double ExplicitSolver<3>::find_beam_masses(const StageParameters &stage,
-                                             const State<3> &state,
-                                             std::vector<double> &mass) const;
-
   // Members that exist in two dimensions only.
-  template <>
-  void ExplicitSolver<2>::find_water(const StageParameters &stage,
-                                     double start);
-  template <>
-  void ExplicitSolver<3>::find_water(const StageParameters &stage,
-                                     double start);
   template <>
   void ExplicitSolver<2>::set_dashpots();
   template <>

@@ -6,28 +6,18 @@
 
 #include <quoin/base/phase_clock.h>
 #include <quoin/operators/state.h>
-#include <quoin/contact/block_contacts.h>
-#include <quoin/farfield/far_field.h>
-#include <quoin/farfield/static_far_field.h>
 #include <quoin/model/model.h>
-#include <quoin/dynamics/stage_loads.h>
+#include <quoin/loading/run_loads.h>
+#include <quoin/loading/stage_loads.h>
 #include <quoin/stages/stage_parameters.h>
-#include <quoin/loads/nodal_load.h>
-#include <quoin/loads/motion_constraint.h>
-#include <quoin/loads/platen.h>
-#include <quoin/structures/beams.h>
 
-#include <algorithm>
-#include <map>
+#include <array>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace quoin
 {
-  class JointFlow;
-
   /** Energies of the whole model at one time [J]. */
   struct Energies : EnergyAccounts
   {
@@ -56,22 +46,9 @@ namespace quoin
     }
   };
 
-  /** The two constraints of the load of type 'boundary elements'; null: there
-      is none. */
-  struct FarFields
-  {
-    /** Far field of stages that end by time. */
-    FarField *elastodynamic      = nullptr;
-    StaticFarField *elastostatic = nullptr; /**< far field of static stages */
-    // In the stage that has begun:
-    bool elastodynamic_acts = false;
-    bool elastostatic_acts  = false;
-  };
-
   /**
    * Base of all solvers: the loads of a run and those that act in the stage,
-   * the energies. Platens, free fields, boundary elements and rigid blocks
-   * belong to two dimensions.
+   * the energies. Rigid blocks belong to two dimensions.
    */
   template <int dim>
   class Solver
@@ -108,25 +85,6 @@ namespace quoin
       return 0.;
     }
 
-    /** Lets water flow in joints; @p flow must outlive this object. */
-    void set_flow(JointFlow *flow)
-    {
-      water = flow;
-    }
-    /** The water that flows in joints; null: there is none. */
-    const JointFlow *flow() const
-    {
-      return water;
-    }
-
-    /** Sets this rank's @p terms of the displacement that the load pattern of
-        the stage @p name controls, if a history gives it. */
-    void set_control(const std::string &name,
-                     const std::vector<DisplacementTerm> &terms)
-    {
-      controls[name] = terms;
-    }
-
     /** Throws a RunError if the motion is no longer finite, which names the
         load if one is not; collective. */
     void check_finite(const State<dim> &state) const;
@@ -141,6 +99,16 @@ namespace quoin
       last_energies = energies;
     }
 
+    /** All loads of the run. Beams, water and load controls may be set before
+        prepare(). */
+    RunLoads<dim> &loads()
+    {
+      return all;
+    }
+    const RunLoads<dim> &loads() const
+    {
+      return all;
+    }
     /** The loads that act in the stage that has begun. */
     const StageLoads<dim> &stage_loads() const
     {
@@ -149,50 +117,15 @@ namespace quoin
 
     /** Force x, y [N] and moment [N m] of a load; collective. */
     virtual std::array<double, 3> resultant(const std::string &load) const;
-    /** Whether @p load adds the mass of water, so that it has a resultant. */
-    bool has_added_mass(const std::string &load) const
-    {
-      return std::count(loads_of_water.begin(), loads_of_water.end(), load) > 0;
-    }
-
-    /** Takes the beams of the run, before prepare(). */
-    void set_beams(std::unique_ptr<Beams> beams)
-    {
-      all_beams = std::move(beams);
-    }
-    /** Null: there are none. */
-    Beams *beams() const
-    {
-      return all_beams.get();
-    }
-
-    const FarFields &far_fields() const
-    {
-      return far;
-    }
-
     /** Called before a checkpoint: completes @p state. */
     virtual void save(State<dim> &state) const;
     /** Called after a checkpoint: drops what only checkpoints need. */
     virtual void discard_saved(State<dim> &state) const;
 
-    /** Null if displacements are small. */
-    virtual const BlockContacts *contacts() const
-    {
-      return nullptr;
-    }
-
     /** Wall time of this process by phase of a step. */
     PhaseClock &time_spent()
     {
       return time_shares;
-    }
-
-    /** Constraints of all loads, active in this stage or not. */
-    const std::vector<std::unique_ptr<MotionConstraint<dim>>> &
-    constraints() const
-    {
-      return all_constraints;
     }
 
   protected:
@@ -211,19 +144,6 @@ namespace quoin
         loads in its pattern. Collective. */
     void begin_pattern(const StageParameters *previous,
                        State<dim> &state) const;
-    /** Refuses loads on absent blocks, except prescribed motions. */
-    void refuse_absent_nodes(const State<dim> &state) const;
-    /** Whether @p stage names @p constraint and, of far fields, is of its kind.
-     */
-    bool acts_in(const MotionConstraint<dim> &constraint,
-                 const StageParameters &stage) const;
-    /**
-     * The rigid blocks that platens of the stage move. Throws an InputError
-     * about one that is held in part or by something else.
-     */
-    std::vector<bool> find_held_blocks() const;
-    /** Throws an InputError if two platens of the stage share a node. */
-    void refuse_shared_platens() const;
     /** Sums the energies of all ranks, @p stored those that nodes and operators
         of this rank store [J]. */
     void find_energies(const State<dim> &state, EnergyAccounts stored);
@@ -232,51 +152,18 @@ namespace quoin
     Model<dim> &model;
     MPI_Comm communicator;
 
-    std::vector<std::unique_ptr<MotionConstraint<dim>>> all_constraints;
-    FarFields far; /**< two of them */
-    std::vector<NodalLoad<dim>> all_loads;
-    JointFlow *water = nullptr;       /**< null: no water flows in joints */
-    std::unique_ptr<Beams> all_beams; /**< in two dimensions, or null */
-    std::vector<std::string> known_loads;
-    std::vector<std::string> loads_of_water; /**< with added mass */
-
+    RunLoads<dim> all; /**< loads of the run */
     StageParameters stage;
     StageLoads<dim> acting; /**< loads that act in this stage */
     PhaseClock time_shares;
 
   private:
-    std::map<std::string, std::vector<DisplacementTerm>>
-        controls; /**< load controls by the names of stages */
-    void make_free_fields(const std::vector<LoadParameters> &loads);
-    /** Lets the last one of all_loads, the uplift @p load, follow cracks, if it
-        does. */
-    void add_uplift(const LoadParameters &load);
-    void add_far_fields(std::unique_ptr<FarField> far_field,
-                        std::unique_ptr<StaticFarField> static_field);
-
     /** Adds up @p energies of all ranks. */
     void sum_accounts(EnergyAccounts &energies) const;
 
     EnergyAccounts stored_at_start; /**< of all ranks */
     Energies last_energies;
   };
-
-  // Members that exist in two dimensions only.
-  template <>
-  void Solver<2>::add_uplift(const LoadParameters &load);
-  template <>
-  void Solver<3>::add_uplift(const LoadParameters &load);
-  template <>
-  void Solver<2>::make_free_fields(const std::vector<LoadParameters> &loads);
-  template <>
-  void
-  Solver<2>::add_far_fields(std::unique_ptr<FarField> far_field,
-                            std::unique_ptr<StaticFarField> static_far_field);
-  template <>
-  std::vector<bool> Solver<2>::find_held_blocks() const;
-
-  /** Whether @p stage names the load @p name. */
-  bool names_load(const StageParameters &stage, const std::string &name);
 } // namespace quoin
 
 #endif

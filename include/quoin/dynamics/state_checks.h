@@ -5,6 +5,7 @@
 #define quoin_dynamics_state_checks_h
 
 #include <quoin/model/model.h>
+#include <quoin/stages/stage_parameters.h>
 
 #include <string>
 #include <vector>
@@ -19,6 +20,19 @@ namespace quoin
   template <int dim>
   void check_cells(const Model<dim> &model, const State<dim> &state,
                    const std::vector<std::string> &loads);
+
+  /**
+   * Throws a ModelFailure if plastic flow has changed cells so much that
+   * @p time_step [s] is no longer stable in @p stage, with the masses of local
+   * nodes @p node_mass [kg] and factors of those of rigid blocks
+   * @p mass_factor [-]. Collective.
+   */
+  template <int dim>
+  void check_time_step(const Model<dim> &model, const State<dim> &state,
+                       const StageParameters &stage,
+                       const std::vector<double> &node_mass,
+                       const std::vector<double> &mass_factor,
+                       double time_step);
 
   /** The node of present blocks that has moved farthest. */
   template <int dim>

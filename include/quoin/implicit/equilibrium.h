@@ -5,7 +5,7 @@
 #define quoin_implicit_equilibrium_h
 
 #include <quoin/farfield/static_far_field.h>
-#include <quoin/dynamics/load_pattern.h>
+#include <quoin/loading/load_pattern.h>
 #include <quoin/implicit/dof_map.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/structures/beams.h>

@@ -4,7 +4,7 @@
 #ifndef quoin_joint_elements_joint_points_h
 #define quoin_joint_elements_joint_points_h
 
-#include <quoin/joints/joint_law.h>
+#include <quoin/joint_laws/joint_law.h>
 #include <quoin/joints/point_arrays.h>
 #include <quoin/operators/energy_accounts.h>
 

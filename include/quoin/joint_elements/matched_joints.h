@@ -9,7 +9,7 @@
 #include <quoin/joint_elements/segment_group.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/operators/force_operator.h>
-#include <quoin/joints/joint_parameters.h>
+#include <quoin/joint_laws/joint_parameters.h>
 #include <quoin/mesh/node_map.h>
 
 #include <array>

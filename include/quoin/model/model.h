@@ -6,6 +6,7 @@
 
 #include <quoin/base/thickness.h>
 #include <quoin/model/construction_state.h>
+#include <quoin/model/initial_stress.h>
 #include <quoin/operators/state.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/joint_elements/joint_changes.h>
@@ -13,7 +14,7 @@
 #include <quoin/blocks/block_cells.h>
 #include <quoin/blocks/stable_time_step.h>
 #include <quoin/blocks/rigid_blocks.h>
-#include <quoin/joints/joint_parameters.h>
+#include <quoin/joint_laws/joint_parameters.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/materials/material_parameters.h>
 #include <quoin/materials/plane_assumption.h>
@@ -60,6 +61,17 @@ namespace quoin
   ModelProperties reduced(ModelProperties properties, double factor,
                           bool joints = true, bool blocks = true);
 
+  /** Stiffness of cells of @p material. */
+  template <int dim>
+  CellStiffness<dim> stiffness_of(const MaterialParameters &material,
+                                  PlaneAssumption plane);
+
+  /** Yield laws of @p materials, none of those that are elastic. */
+  template <int dim>
+  std::vector<std::optional<YieldLaw<dim>>>
+  laws_of(const std::vector<MaterialParameters> &materials,
+          PlaneAssumption plane);
+
   /**
    * The blocks and joints of this rank, packed for the solvers; constant but
    * for what set_properties() changes. Nodes and cells have the local numbers
@@ -95,19 +107,11 @@ namespace quoin
     /**
      * Sets the @p properties of cells and joints, with as many materials and
      * sets as before, each of the same kind, and the stress at zero strain of
-     * @p construction. Collective. Stresses jump where stiffnesses change; see
-     * change_properties().
+     * @p construction. Collective. Stresses jump where stiffnesses change, but
+     * for change_properties() (model_changes.h).
      */
     void set_properties(const ModelProperties &properties,
                         const ConstructionState<dim> &construction);
-    /** Does what set_properties() does and keeps stresses and tractions of @p
-     * state. */
-    void change_properties(const ModelProperties &properties,
-                           State<dim> &state);
-    /** Sets the stress at zero strain of the cells of @p groups to zero. */
-    void clear_initial_stress(const std::vector<bool> &groups,
-                              ConstructionState<dim> &construction);
-
     const NodeMap<dim> &nodes() const
     {
       return node_map;
@@ -144,25 +148,16 @@ namespace quoin
       return bars;
     }
     /** Null if displacements are small. */
-    const BlockContacts *contacts() const
+    BlockContacts *contacts() const
     {
       return block_contacts.get();
     }
-    BlockContacts *contacts()
-    {
-      return block_contacts.get();
-    }
-    /** Bound of the critical step; none for quadratic meshes, whose corners
-        have no mass. */
+    /** Bound of the critical step at the start of the run; none for quadratic
+       meshes, whose corners have no mass. */
     const StableTimeStep<dim> &stability() const
     {
       return *stable_step;
     }
-    /** Bound of the critical step with the plastic strains of @p state; of
-     * the blocks alone if joints and contacts are not @p with_springs.
-     * Collective. */
-    StableTimeStep<dim> stability_at(const State<dim> &state,
-                                     bool with_springs = true) const;
     /**
      * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of
      * quadratic triangles.
@@ -171,40 +166,19 @@ namespace quoin
     {
       return node_mass;
     }
-    /** Index into the materials of an owned cell. */
-    unsigned int material_of_cell(const unsigned int cell) const
+    /** Stress at zero strain at the start of the run. */
+    const InitialStress<dim> &initial_stress() const
     {
-      return now.material_of_group[node_map.cells().group[cell]];
+      return start_stress;
     }
 
   private:
-    CellStiffness<dim> stiffness_of(const MaterialParameters &material) const;
-    /** Yield laws of @p materials. */
-    std::vector<std::optional<YieldLaw<dim>>>
-    laws_of(const std::vector<MaterialParameters> &materials) const;
-    /** Initial stress by @p load at @p point in a material [Pa]. */
-    CellStress<dim> initial_stress_of(const LoadParameters &load,
-                                      const dealii::Point<dim> &point,
-                                      const LinearElastic &material) const;
-    /** Refuses an initial stress of the other dimension, or out of a plane that
-        is free. */
-    void check_initial_stress(const LoadParameters &load) const;
     void find_materials();
     void find_thickness();
     void find_masses();
-    void find_initial_stress();
-    AlignedArray<double> packed_initial_stress() const;
     void pack_blocks(const ConstructionState<dim> &construction);
     void find_stable_step();
     void make_contacts();
-    /** The operators that bound the stable step. */
-    std::vector<const ForceOperator<dim> *> stiff_operators() const;
-    /** In what ratio their springs are divided between nodes. Collective. */
-    NodeRatio spring_ratio(const State<dim> &state) const;
-    /** Adds to both bounds, of owned nodes [N/m] and of rigid blocks [1/s^2],
-        what dashpots take of the step. Collective. */
-    void add_dashpot_bound(std::vector<NodeStiffness<dim>> &bound,
-                           std::vector<double> &rigid_bound) const;
 
     const NodeMap<dim> &node_map;
     const ModelParameters given;
@@ -214,10 +188,7 @@ namespace quoin
     /** Flag of each physical surface at the start. */
     std::vector<bool> absent_group;
     std::vector<double> node_mass;
-    /** Stress of each cell; may be empty. */
-    std::vector<CellStress<dim>> cell_stress;
-    /** Stress of joint faces; may be empty. */
-    std::vector<JointFaceStress<dim>> face_stress;
+    InitialStress<dim> start_stress;
     BlockForces<dim> block_forces;
     RigidBlocks rigid;
     JointsOf<dim> matched_joints;
@@ -226,32 +197,18 @@ namespace quoin
     std::unique_ptr<StableTimeStep<dim>> stable_step;
   };
 
-  template <>
-  CellStress<2>
-  Model<2>::initial_stress_of(const LoadParameters &load,
-                              const dealii::Point<2> &point,
-                              const LinearElastic &material) const;
-  template <>
-  CellStress<3>
-  Model<3>::initial_stress_of(const LoadParameters &load,
-                              const dealii::Point<3> &point,
-                              const LinearElastic &material) const;
-  template <>
-  void Model<2>::check_initial_stress(const LoadParameters &load) const;
-  template <>
-  void Model<3>::check_initial_stress(const LoadParameters &load) const;
-
-  template <>
-  NodeRatio Model<2>::spring_ratio(const State<2> &state) const;
-  template <>
-  NodeRatio Model<3>::spring_ratio(const State<3> &state) const;
-
-  // Members that exist in two dimensions only.
+  // A member that exists in two dimensions only.
   template <>
   void Model<2>::make_contacts();
-  template <>
-  void Model<2>::add_dashpot_bound(std::vector<NodeStiffness<2>> &bound,
-                                   std::vector<double> &rigid_bound) const;
+
+  /** Index into the materials of an owned @p cell. */
+  template <int dim>
+  unsigned int material_of_cell(const Model<dim> &model,
+                                const unsigned int cell)
+  {
+    return model.properties()
+        .material_of_group[model.nodes().cells().group[cell]];
+  }
 } // namespace quoin
 
 #endif

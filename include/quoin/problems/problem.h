@@ -167,10 +167,6 @@ namespace quoin
     const RunContext &run;
   };
 
-  /** The kind of problem that @p parameters describe. */
-  std::unique_ptr<Problem> make_problem(const Parameters &parameters,
-                                        const RunContext &run);
-
   /**
    * fingerprint() of all parameters, of the mesh as it was read or generated,
    * and of the files of tables and records.

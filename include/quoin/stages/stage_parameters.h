@@ -144,6 +144,9 @@ namespace quoin
                                 const std::string &name);
   };
 
+  /** Whether @p stage names the load @p name. */
+  bool names_load(const StageParameters &stage, const std::string &name);
+
   /** The last stage before @p index that leaves the state changed (no safety
       stage), or null. */
   const StageParameters *

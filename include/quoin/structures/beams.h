@@ -7,7 +7,7 @@
 #include <quoin/base/thickness.h>
 #include <quoin/blocks/node_update.h>
 #include <quoin/joints/joint_history.h>
-#include <quoin/joints/joint_parameters.h>
+#include <quoin/joint_laws/joint_parameters.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/mesh/node_map.h>
 #include <quoin/operators/force_operator.h>

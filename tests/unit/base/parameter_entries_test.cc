@@ -31,6 +31,8 @@ namespace
     std::array<double, 2> joints = { { 0., 0.01 } };
     std::string name             = "wall";
     std::vector<std::string> parts;
+    std::vector<std::pair<std::string, std::string>> links;
+    bool links_all = false;
 
     static void enter(ParameterEntries &entries, Wall &wall)
     {
@@ -52,6 +54,8 @@ namespace
       entries.numbers("Joints", wall.joints, "Joints [m]");
       entries.text("Name", wall.name, "Name.");
       entries.list("Parts", wall.parts, "Parts.");
+      entries.pairs("Links", wall.links, "must be pairs.", "Links.",
+                    &wall.links_all);
     }
   };
 
@@ -81,7 +85,8 @@ TEST(ParameterEntries, DeclareTheValuesOfANewObjectAsDefaults)
           { { "Dry", "no" } },
           { { "Joints", "0, 0.01" } },
           { { "Name", "wall" } },
-          { { "Parts", "" } } };
+          { { "Parts", "" } },
+          { { "Links", "" } } };
   for (const auto &[name, preset] : expected)
     EXPECT_EQ(prm.get(name), preset) << name;
 }
@@ -90,7 +95,7 @@ TEST(ParameterEntries, ReadWhatIsGivenAndElseTheDefaults)
 {
   const Wall wall = read("set Bond = half\nset Angle = 45\nset End = 3\n"
                          "set Joints = 1, 2\nset Parts = a, b\nset Dry = true\n"
-                         "set Courses = 7\n");
+                         "set Courses = 7\nset Links = a:b, all, c : d\n");
   EXPECT_EQ(wall.bond, Bond::running);
   EXPECT_EQ(wall.angle, 45. * constants::degree);
   EXPECT_EQ(wall.end, 3.);
@@ -98,6 +103,9 @@ TEST(ParameterEntries, ReadWhatIsGivenAndElseTheDefaults)
   EXPECT_EQ(wall.parts, (std::vector<std::string>{ "a", "b" }));
   EXPECT_TRUE(wall.is_dry);
   EXPECT_EQ(wall.courses, 7U);
+  EXPECT_EQ(wall.links, (std::vector<std::pair<std::string, std::string>>{
+                            { "a", "b" }, { "c", "d" } }));
+  EXPECT_TRUE(wall.links_all);
   const Wall preset;
   EXPECT_EQ(wall.height, preset.height);
   EXPECT_EQ(wall.ratio, preset.ratio);

@@ -26,9 +26,7 @@ namespace
     prm.declare_entry("Gap", "a,,b", Anything());
     prm.declare_entry("Three", "1, -2e3, 0.5", Anything());
     prm.declare_entry("Points", "0, 1; 2, -3e0", Anything());
-    prm.declare_entry("Pairs", "a:b, all, c : d", Anything());
     prm.declare_entry("Flag", "yes", Anything());
-    prm.declare_entry("Count", "12", dealii::Patterns::Integer());
     prm.leave_subsection();
     prm.leave_subsection();
   }
@@ -65,16 +63,9 @@ TEST(ParameterSection, ReadsValues)
     EXPECT_THROW(inner.list("Gap"), InputError);
     EXPECT_EQ(inner.numbers<3>("Three"),
               (std::array<double, 3>{ { 1., -2000., 0.5 } }));
-    EXPECT_EQ(inner.rows("Points", 2, ""),
+    EXPECT_EQ(number_rows(inner, "Points", 2, ""),
               (std::vector<std::vector<double>>{ { 0., 1. }, { 2., -3. } }));
-    EXPECT_TRUE(inner.rows("Nothing", 2, "").empty());
-    bool all = false;
-    EXPECT_EQ(inner.pairs("Pairs", "", &all),
-              (std::vector<std::pair<std::string, std::string>>{
-                  { "a", "b" }, { "c", "d" } }));
-    EXPECT_TRUE(all);
-    EXPECT_TRUE(inner.flag("Flag"));
-    EXPECT_EQ(inner.integer("Count"), 12U);
+    EXPECT_TRUE(number_rows(inner, "Nothing", 2, "").empty());
     EXPECT_EQ(inner.folder(), "dir/");
   }
   // Both subsections have been left.
@@ -110,11 +101,8 @@ TEST(ParameterSection, ErrorsNameFileSectionParameterAndValue)
   EXPECT_EQ(error([&] { inner.numbers<3>("Words"); })
                 .find(where + "'Words = a, b c ,d' must be 3 numbers"),
             0U);
-  EXPECT_EQ(error([&] { inner.rows("Points", 3, "must be rows."); })
+  EXPECT_EQ(error([&] { number_rows(inner, "Points", 3, "must be rows."); })
                 .find(where + "'Points = 0, 1; 2, -3e0' must be rows."),
-            0U);
-  EXPECT_EQ(error([&] { inner.pairs("Pairs", "must be pairs."); })
-                .find(where + "'Pairs = a:b, all, c : d' must be pairs."),
             0U);
   EXPECT_EQ(error(
                 [&] {

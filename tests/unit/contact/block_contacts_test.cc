@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../joints/rock_walk.h"
+#include "../joint_laws/rock_walk.h"
 
 #include <quoin/base/exceptions.h>
 #include <quoin/contact/contact_search.h>

@@ -4,8 +4,8 @@
 // Contacts in SIMD lanes against the same contacts one by one, under the joint
 // laws themselves.
 
-#include "../joints/composite_walk.h"
-#include "../joints/rock_walk.h"
+#include "../joint_laws/composite_walk.h"
+#include "../joint_laws/rock_walk.h"
 
 #include "test_contacts.h"
 

@@ -165,7 +165,7 @@ TEST(FreeField, TheColumnIsLayered)
   TestRun run(mesh, parameters,
               { incident("0", "0"), free_field("left", "left") });
   const auto *side = dynamic_cast<const FreeFieldBoundary *>(
-      run.solver.constraints().back().get());
+      run.solver.loads().constraints.back().get());
   ASSERT_TRUE(side != nullptr);
   EXPECT_EQ(side->heights(), (std::vector<double>{ 0., 1., 2., 3., 4. }));
   const double modulus = 1e10 * 0.8 / (1.2 * 0.6);

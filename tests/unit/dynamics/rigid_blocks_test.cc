@@ -650,7 +650,7 @@ TEST(RigidBlocks, MassScalingReachesTheStep)
   stage.scaled_time_step = 3. * own;
   run.begin(stage, 0.5);
   EXPECT_NEAR(run.solver.critical_time_step(), 3. * own, 1e-9 * own);
-  EXPECT_GT(run.solver.added_mass_share(), 0.);
+  EXPECT_GT(run.solver.added_mass().share, 0.);
   for (RigidBlockState &block : run.state.get<RigidBlockStates>())
     block.velocity[1] = block.velocity[2] = 1e-9;
   // The energy that scaling gives and takes is booked.

@@ -9,6 +9,7 @@
 
 #include <quoin/blocks/block_cells.h>
 #include <quoin/dynamics/central_differences.h>
+#include <quoin/dynamics/kinetic_energy.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
@@ -122,8 +123,7 @@ namespace
       stored                     = sum(forces.stored_energy(state));
       const auto velocity_before = state.velocity;
       StepSums sums;
-      stepper.advance_tiles(state, context, false, sums);
-      stepper.advance_shared_nodes(state, context, false, sums);
+      stepper.advance_blocks(state, context, false, sums);
       stepper.move_constrained_nodes(state, context);
       stepper.book_work(state, context, sums);
       kinetic = sum(

@@ -59,7 +59,7 @@ namespace
     {
       const auto stress   = cell_stress(model.blocks(), state.nodes.data(),
                                         state.get<PlasticHistory>(), c, nullptr);
-      const bool is_upper = model.material_of_cell(c) == 1;
+      const bool is_upper = material_of_cell(model, c) == 1;
       EXPECT_NEAR(stress[1], -force / (is_upper ? upper : lower),
                   tolerance * pressure);
       EXPECT_NEAR(stress[0], 0., tolerance * pressure);
@@ -255,7 +255,7 @@ TEST(Thickness, GeneralContactsBearOverTheSmallerOne)
     double force              = 0.;
     for (unsigned int i = 0; i < state.pairs.size(); ++i)
       if (BlockContacts::Contact contact;
-          run.solver.contacts()->contact(state, i, contact))
+          run.model.contacts()->contact(state, i, contact))
         force += contact.force[0][1] + contact.force[1][1];
     EXPECT_NEAR(force, -stiffness * overlap * 2.75 * std::min(lower, upper),
                 1e-6 * stiffness * overlap);

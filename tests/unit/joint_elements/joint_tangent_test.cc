@@ -5,8 +5,8 @@
 // random paths through all branches of the laws.
 
 #include "../model/test_models.h"
-#include "../joints/composite_walk.h"
-#include "../joints/rock_walk.h"
+#include "../joint_laws/composite_walk.h"
+#include "../joint_laws/rock_walk.h"
 
 #include <quoin/contact/law_fields.h>
 #include <quoin/joint_elements/matched_joints.h>

@@ -2,8 +2,8 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../model/test_models.h"
-#include "../joints/composite_walk.h"
-#include "../joints/rock_walk.h"
+#include "../joint_laws/composite_walk.h"
+#include "../joint_laws/rock_walk.h"
 
 #include <quoin/joint_elements/joint_changes.h>
 #include <quoin/joints/point_arrays.h>

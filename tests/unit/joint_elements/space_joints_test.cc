@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../joints/composite_walk.h"
+#include "../joint_laws/composite_walk.h"
 #include "../mesh/space_box.h"
 
 #include <quoin/base/exceptions.h>

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_block_problem_block_stage_h
+#define quoin_block_problem_block_stage_h
+
+#include <quoin/dynamics/state_checks.h>
+#include <quoin/block_problem/block_outputs.h>
+#include <quoin/block_problem/load_record.h>
+#include <quoin/block_problem/stage_steps.h>
+#include <quoin/results/history_conditions.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace quoin
+{
+  /** Outcome and end time of a stage. */
+  struct StageOutcome
+  {
+    std::string outcome;     /**< empty: it has not ended */
+    std::string condition;   /**< condition that was met, or empty */
+    double time        = 0.; /**< [s] */
+    std::uint64_t step = 0;  /**< step number of the run */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &outcome &condition &time &step;
+    }
+  };
+
+  /**
+   * How much of the applied forces local damping opposes in a stage: at most
+   * its coefficient times the unbalanced ratio. Blocks that move steadily have
+   * that as a force against their motion, which is missing in reactions.
+   */
+  struct LocalDampingShare
+  {
+    /** Share above which reactions may be some per cent off [-]; measured:
+        theory.md, "Damping". */
+    static constexpr double large = 0.005;
+
+    double sum      = 0.;
+    std::uint64_t n = 0, n_large = 0; /**< samples, and those above large */
+
+    void add(const double share)
+    {
+      sum += share;
+      ++n;
+      n_large += share > large;
+    }
+    /** Whether it was large for more than half of the stage: not only while it
+        settles, or as joints break. */
+    bool is_large() const
+    {
+      return 2 * n_large > n;
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &sum &n &n_large;
+    }
+  };
+
+  /** Data of the stages of a problem of blocks. */
+  template <int dim>
+  struct BlockContext
+  {
+    /** @p mesh is on the first rank. */
+    BlockContext(const Parameters &parameters, MeshData<dim> mesh,
+                 const RunContext &run);
+
+    const RunContext &run;
+    BlockSystem<dim> system;
+    StageSteps<dim> steps;
+    BlockOutputs<dim> outputs;
+    State<dim> state;
+    /** Search of each stage, most unused. */
+    std::vector<FactorSearch> searches;
+    std::vector<StageOutcome> outcomes; /**< outcome of each stage */
+    std::vector<LoadRecord> loads;      /**< load record of each stage */
+    /** Local damping of each stage. */
+    std::vector<LocalDampingShare> damping_shares;
+    std::vector<double> peaks; /**< peaks of histories: see HistoryConditions */
+    double displaced = 0.;     /**< largest one where the stage began [m] */
+    /** Largest motions of joints in the present stage, if displacements are
+        small. */
+    JointMotion joint_motion;
+    std::string failure; /**< why the last stage failed; empty: it did not */
+    std::uint64_t n_done = 0; /**< steps of this process */
+    /** Number of iterations of the implicit solver. */
+    std::uint64_t iterations = 0;
+    /** Number of step reductions of the implicit solver. */
+    std::uint64_t cuts = 0;
+
+    /** Residual of the energy balance, by the energy throughput [-]. */
+    double energy_residual() const;
+  };
+
+  /** Base of all stages of a problem of blocks. */
+  template <int dim>
+  class BlockStage : public Stage
+  {
+  public:
+    /** Stage @p index of the parameters. */
+    BlockStage(BlockContext<dim> &context, unsigned int index);
+
+    void end() override;
+
+  protected:
+    /** Model, solver and what results count from begin the stage. */
+    void begin_model();
+    /** Tasks of a kind of stage at its end. */
+    virtual void finish()
+    {
+    }
+    /** Called before the step whose row is due. */
+    void before_row();
+    /** Writes a row and looks whether a condition ends the stage. */
+    void write_row();
+    /** Whether a condition has been met. */
+    bool is_to_end() const
+    {
+      return !context.outcomes[index].outcome.empty();
+    }
+    /** Writes the fields and throws a FailedStep. */
+    [[noreturn]] void fail(const std::string &why);
+    /** Follows the motions of joints if displacements are small; fails if
+        they are absurd. Collective. */
+    void follow_joint_motion();
+    /** Progress, with the completed @p fraction of the stage, or -1. */
+    ProgressFigures figures_at(double fraction) const;
+    /** Share of the loads of an implicit stage that has been reached [-]. */
+    double load_share() const;
+    /**
+     * Whether a static stage has ended: the unbalanced ratio, computed in this
+     * step, is small and its loads are constant.
+     */
+    bool has_settled() const;
+
+    BlockContext<dim> &context;
+    BlockSystem<dim> &system;
+    BlockOutputs<dim> &outputs;
+    Log &log;
+    const unsigned int index;
+    const StageParameters &stage;
+    State<dim> &state;
+
+  private:
+    /** Warns of motions of joints for which displacements are not small. */
+    void warn_of_joint_motion() const;
+    /** Records the loads of the row for @p time [s]. */
+    void record_loads(double time);
+    /** Warns of local damping that has carried a part of the loads. */
+    void warn_of_damping() const;
+    /** Warns if the stage ends far from its control function. Collective. */
+    void warn_of_control() const;
+    /** Keeps and reports how the stage has ended. */
+    void note_outcome();
+    /** Forces of excavated blocks that a stage has not released when a
+        condition ends it stay. */
+    void keep_unreleased_forces();
+
+    const HistoryConditions conditions; /**< conditions that end the stage */
+    // Before the step whose row is due.
+    double load_time  = 0.;    /**< [s] */
+    double controlled = 0.;    /**< displacement by a load pattern [m] */
+    bool is_first     = false; /**< step of the stage */
+  };
+
+  /** A stage of the explicit solver that ends by time or at rest. */
+  template <int dim>
+  std::unique_ptr<Stage> make_explicit_stage(BlockContext<dim> &context,
+                                             unsigned int index);
+
+  /** A stage of the implicit solver, from equilibrium to equilibrium. Throws a
+      FailedStep if there is none. */
+  std::unique_ptr<Stage> make_implicit_stage(BlockContext<2> &context,
+                                             unsigned int index);
+
+  /**
+   * A stage that finds the factor of safety: a step is the trial of a factor,
+   * by which strengths are divided. Every trial begins with the state at the
+   * start of the stage, and so does the next stage.
+   */
+  template <int dim>
+  std::unique_ptr<Stage> make_safety_stage(BlockContext<dim> &context,
+                                           unsigned int index);
+} // namespace quoin
+
+#endif

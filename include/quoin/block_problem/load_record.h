@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_block_problem_load_record_h
+#define quoin_block_problem_load_record_h
+
+#include <quoin/operators/state.h>
+#include <quoin/block_problem/block_system.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** Forces of a stage along the axes [N]. */
+  struct ForceBalance
+  {
+    std::array<double, 3> applied{};  /**< resultants of the loads */
+    std::array<double, 3> supports{}; /**< resultants of the supports */
+    /** Sums of the magnitudes of the loads on nodes and platens, whose
+        resultant may be zero. */
+    std::array<double, 3> size{};
+  };
+
+  /**
+   * What the rows of a stage have shown of its loads: the largest factor of a
+   * load pattern, and whether the supports carried the applied loads.
+   */
+  class LoadRecord
+  {
+  public:
+    /** The factor of the largest magnitude [-], and where [m] and when [s] it
+        was. */
+    struct Peak
+    {
+      double factor = 0., displacement = 0.;
+      double time = -1.; /**< -1: there is none */
+    };
+
+    /** Adds a row with the @p factor of a load pattern. */
+    void add_factor(double factor, double displacement, double time);
+
+    /** Adds a row at @p time [s]; @p to_means: also to the means, which say
+        nothing where a stage seeks an equilibrium and loads pass on the way. */
+    void add_forces(const ForceBalance &forces, double time,
+                    bool to_means = true);
+
+    /**
+     * What is to be warned of: that along an axis along which the applied force
+     * varies, the largest force that supports carried at any time is less than
+     * the largest applied one, by more than 5 % of the size of the loads, or
+     * that the largest means over a tenth of the rows do so, as vibration may
+     * raise the force of supports for a moment. A model that vibrates about a
+     * balance passes, as its supports take more than is applied, too; so do
+     * loads that balance each other. Empty: nothing.
+     */
+    std::string warning() const;
+
+    /** Adds its figures to those of the stage in summary.json. */
+    void summarise(nlohmann::ordered_json &stage) const;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &peak.factor &peak.displacement &peak.time;
+      for (Axis &axis : axes)
+        archive &axis.lowest &axis.highest &axis.most_up &axis.most_down &axis
+            .applied &axis.time &axis.size;
+      archive &means &sum &n_summed &n_per_mean;
+    }
+
+  private:
+    /** Forces along an axis: the range of the applied one and, at the last time
+        when its magnitude was largest, its value; the largest forces of the
+        supports in both directions [N, s]. */
+    struct Axis
+    {
+      double lowest  = std::numeric_limits<double>::infinity();
+      double highest = -std::numeric_limits<double>::infinity();
+      double most_up = 0., most_down = 0.;
+      double applied = 0., time = 0.;
+      double size = 0.; /**< largest sum of magnitudes of the loads [N] */
+
+      /** Largest applied force that supports carried, in its direction [N]. */
+      double taken() const;
+    };
+
+    /** What supports lack of the largest applied force. */
+    struct Lack
+    {
+      double applied, taken; /**< [N] */
+      double time;           /**< of the applied force [s] */
+      bool is_of_means;      /**< over a tenth of the rows */
+    };
+
+    /** Along axis @p d; none that is to be warned of: empty. */
+    std::optional<Lack> lack(unsigned int d) const;
+    /** That of the largest means over a tenth of the rows, at any size; empty:
+        there are too few rows. */
+    std::optional<Lack> lack_of_means(unsigned int d) const;
+
+    /** Numbers of a row: time [s], applied forces and forces of supports [N].
+     */
+    static constexpr unsigned int n_numbers = 7;
+
+    Peak peak;
+    std::array<Axis, 3> axes;
+    /** Means of equally many rows, one after the other, and the sum of the rows
+        behind them. */
+    std::vector<double> means;
+    std::vector<double> sum = std::vector<double>(n_numbers, 0.);
+    unsigned int n_summed = 0, n_per_mean = 1;
+  };
+
+  /**
+   * The forces at @p load_time [s] of the stage that has begun, after the step
+   * of
+   * @p state from there on. Forces of platens count as applied, reactions of
+   * all other loads that move nodes, and of driven platens, as supports.
+   * Collective.
+   */
+  template <int dim>
+  ForceBalance force_balance(const BlockSystem<dim> &system,
+                             const State<dim> &state, double load_time);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joint_laws_barton_bandis_law_h
+#define quoin_joint_laws_barton_bandis_law_h
+
+#include <quoin/base/constants.h>
+#include <quoin/joint_laws/rock_point.h>
+
+#include <string>
+
+namespace quoin
+{
+  /**
+   * The closure of a joint of rock under pressure, @cite Bandis1983: with the
+   * first stiffness kni [Pa/m] and the largest closure Vm [m],
+   *
+   *     s = kni V / (1 - V/Vm),
+   *
+   * the same curve loading and unloading. Beyond the closure where its slope
+   * has reached a largest stiffness it continues linearly with that, so that
+   * there is a stable time step.
+   */
+  class HyperbolicClosure
+  {
+  public:
+    /** Stiffnesses [Pa/m], @p largest not below @p first; Vm [m]. */
+    HyperbolicClosure(double first, double largest_closure, double largest);
+
+    /** s [Pa] at the closure V [m]; none if that is negative. */
+    template <typename Number>
+    Number traction(const Number &closure) const
+    {
+      if (value_of(closure) <= 0.)
+        return 0.;
+      if (value_of(closure) >= end_closure)
+        return end_traction + largest * (closure - end_closure);
+      return first * closure / (1. - closure / limit);
+    }
+
+    /** V [m] at s [Pa]. */
+    double closure(double traction) const;
+
+    /** ds/dV [Pa/m] at s [Pa]. */
+    double stiffness(double traction) const;
+
+    /** Recoverable energy per area [J/m^2] at s [Pa]. */
+    double energy(double traction) const;
+
+    double largest_stiffness() const
+    {
+      return largest;
+    }
+
+  private:
+    double first, limit, largest; /**< kni [Pa/m], Vm [m], [Pa/m] */
+    /** Closure and traction where the linear part begins [m], [Pa]. */
+    double end_closure, end_traction;
+  };
+
+  /** Mobilised roughness by slip of @cite BartonBandisBakhtar1985. */
+  struct RoughnessTable
+  {
+    static constexpr unsigned int size = 8;
+    /** Slip by peak slip [-]. */
+    static constexpr double slip[size]
+        = { 0.3, 0.6, 1., 2., 4., 10., 25., 100. };
+    /** Mobilised roughness by JRC [-]. */
+    static constexpr double share[size]
+        = { 0., 0.75, 1., 0.85, 0.7, 0.5, 0.4, 0. };
+  };
+
+  /**
+   * The joint of Barton and Bandis: closure by a hyperbola, no tension, and the
+   * shear strength of @cite BartonChoubey1977,
+   *
+   *     |tau| <= s tan(phi_r + i m),  i = JRC log10(JCS/s),
+   *
+   * with the mobilisation m of @cite BartonBandisBakhtar1985, straight between
+   * the rows of RoughnessTable; up to 0.3 of the peak slip the angle grows
+   * straight from 0 to phi_r. phi_r + i is at most 70 degrees, i at least 0.
+   * What counts as slip is the inelastic slip in both senses so far and the
+   * elastic slip of the moment: on the way to the peak the total slip, as
+   * published. ks should be some times the peak strength over the peak slip.
+   *
+   * Below the strength tau = ks (u_s - p). Slip away from the origin dilates by
+   * the angle i m/2; slip back closes the joint by that angle until it has
+   * taken back what it had dilated. An open joint transfers nothing.
+   */
+  struct BartonBandisLaw : RockLaw<BartonBandisLaw>
+  {
+    static constexpr std::array<LawName, 1> names
+        = { { { "Barton-Bandis",
+                "rock joint with hyperbolic closure and a roughness that is "
+                "mobilised and worn by slip" } } };
+
+    HyperbolicClosure closure;
+    double stiffness      = 0.; /**< ks [Pa/m] */
+    double residual_angle = 0.; /**< phi_r [rad] */
+    double roughness      = 0.; /**< JRC, as an angle [rad] */
+    double wall_strength  = 0.; /**< JCS [Pa] */
+    double peak_slip      = 0.; /**< [m] */
+    double divisor        = 1.; /**< divisor of the shear strength [-] */
+
+    /** phi_r + i of the peak is not above this [rad]. */
+    static constexpr double largest_angle = 70. * constants::degree;
+
+    /** The law of a set of joints, or its entries of the parameter file. */
+    static BartonBandisLaw read(LawEntries &entries);
+
+    /** Description of the law for --check. */
+    std::string text() const;
+
+    /** The law with the shear strength divided by @p factor. */
+    BartonBandisLaw reduced(double factor) const;
+
+    /** ks [Pa/m]. */
+    double shear_stiffness(const double /*traction*/ = 0.) const
+    {
+      return stiffness;
+    }
+    double largest_shear_stiffness() const
+    {
+      return stiffness;
+    }
+
+    /** Dilation angle i [rad] by peak roughness at the traction s [Pa]. */
+    template <typename Number>
+    Number peak_roughness(const Number &traction) const;
+
+    /** m [-] and the share of phi_r [-], at the slip by the peak slip. */
+    template <typename Number>
+    static void mobilise(const Number &slip, Number &roughness, Number &basic);
+
+    /** Shear strength [Pa] and tan of the dilation angle [-] at the traction
+        s [Pa] and the slip [m]. */
+    template <typename Number>
+    Number strength(const Number &traction, const Number &slip,
+                    Number &dilation) const;
+
+    /** See find_step(). */
+    template <typename Number>
+    RockFlow<Number> flow(const RockPoint &point, const Number &closure,
+                          const Number &slip) const;
+
+    /**
+     * Sets @p point to tractions [Pa] at rest, at zero opening and slip,
+     * mobilised as far as these need: an offset of closure and slip.
+     */
+    void initialise(RockPoint &point, double normal, double shear) const;
+
+    /** Whether @p point, at zero opening and slip, has admissible tractions; at
+        rest they would come down to what it does bear if not. */
+    bool holds(RockPoint point) const
+    {
+      constexpr double margin = 1e-6; // of what an iteration finds
+      const double sigma = point.normal_traction, tau = point.shear_traction;
+      update(point, 0., 0.);
+      return std::abs(point.normal_traction - sigma)
+                 + std::abs(point.shear_traction - tau)
+             <= margin * (std::abs(sigma) + std::abs(tau));
+    }
+  };
+
+  template <typename Number>
+  Number BartonBandisLaw::peak_roughness(const Number &traction) const
+  {
+    const double by_e = roughness / std::log(10.);
+    const double cap  = largest_angle - residual_angle;
+    const double angle
+        = by_e * std::log(wall_strength / value_of(traction)); // or infinite
+    if (!(angle > 0.))
+      return 0.;
+    if (!(angle < cap))
+      return cap;
+    using std::log;
+    return by_e * log(wall_strength / traction);
+  }
+
+  template <typename Number>
+  void BartonBandisLaw::mobilise(const Number &slip, Number &roughness,
+                                 Number &basic)
+  {
+    using Table    = RoughnessTable;
+    const double x = value_of(slip);
+    roughness      = 0.;
+    basic          = 1.;
+    if (x < Table::slip[0])
+      basic = slip / Table::slip[0];
+    for (unsigned int i = 0; i + 1 < Table::size; ++i)
+      if (x >= Table::slip[i] && x < Table::slip[i + 1])
+        roughness = Table::share[i]
+                    + (slip - Table::slip[i])
+                          * ((Table::share[i + 1] - Table::share[i])
+                             / (Table::slip[i + 1] - Table::slip[i]));
+  }
+
+  template <typename Number>
+  Number BartonBandisLaw::strength(const Number &traction, const Number &slip,
+                                   Number &dilation) const
+  {
+    using std::tan;
+    Number mobilised, basic;
+    mobilise(slip / peak_slip, mobilised, basic);
+    const Number angle    = peak_roughness(traction) * mobilised;
+    const Number friction = tan(residual_angle * basic + angle) / divisor;
+    dilation              = tan(0.5 * angle);
+    // A reduced strength dilates no more than slip can pay for.
+    if (value_of(dilation) > value_of(friction))
+      dilation = friction;
+    return traction * friction;
+  }
+
+  template <typename Number>
+  RockFlow<Number> BartonBandisLaw::flow(const RockPoint &point,
+                                         const Number &closure_now,
+                                         const Number &slip) const
+  {
+    using std::abs;
+    RockFlow<Number> result;
+    const Number trial = stiffness * (slip - point.plastic_slip);
+    Number dilation;
+    const Number limit
+        = strength(closure.traction(closure_now),
+                   point.worn_slip + abs(trial) / stiffness, dilation);
+    result.shear_traction = trial;
+    result.plastic_slip   = point.plastic_slip;
+    if (value_of(abs(trial)) <= value_of(limit))
+      return result;
+
+    const double direction = value_of(trial) < 0. ? -1. : 1.;
+    result.slips           = true;
+    result.wear            = (abs(trial) - limit) / stiffness;
+    result.shear_traction  = direction * limit;
+    result.plastic_slip    = point.plastic_slip + direction * result.wear;
+    result.opening         = dilation * result.wear;
+    if (direction * value_of(slip) >= 0.)
+      return result;
+    // Back down: no farther than it came up, nor than it is closed.
+    Number back = result.opening;
+    if (value_of(back) > point.dilated)
+      back = point.dilated;
+    if (value_of(back) > value_of(closure_now))
+      back = closure_now;
+    result.opening = -back;
+    return result;
+  }
+} // namespace quoin
+
+#endif

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joint_laws_composite_lanes_h
+#define quoin_joint_laws_composite_lanes_h
+
+#include <quoin/joint_laws/composite_law.h>
+#include <quoin/joints/joint_lanes.h>
+
+#include <limits>
+
+namespace quoin
+{
+  /**
+   * Cracks that close, and flow that Newton's method finds without crushing and
+   * dilation, are in lanes; CompositeLaw itself does the rest, point by point.
+   */
+  template <int lanes>
+  class LawLanes<CompositeLaw, lanes>
+  {
+  public:
+    using F     = LaneFunctions<lanes>;
+    using Value = typename F::Value;
+    using Bits  = typename F::Bits;
+
+    explicit LawLanes(const CompositeLaw &law)
+      : law(law), opening_softening(law.opening_softening()),
+        slip_softening(law.slip_softening()),
+        has_cap(std::isfinite(law.cap.compression))
+    {
+    }
+
+    QUOIN_INLINE Bits try_elastic(PointLanes<lanes> &points) const
+    {
+      const PointArrays &at = points.arrays;
+      points.sigma          = law.normal_stiffness
+                     * (points.opening - F::load(at.plastic_opening));
+      points.tau
+          = law.shear_stiffness * (points.slip - F::load(at.plastic_slip));
+      points.elastic   = is_elastic(at, points.sigma, points.tau,
+                                    F::load(at.internal[crack_opening]));
+      const Bits state = points.load_state();
+      return points.elastic
+             & ((state == 0) | (state == elastic_state(points.sigma)));
+    }
+
+    QUOIN_INLINE void update(PointLanes<lanes> &points, const Bits &present,
+                             const Value &weight,
+                             DissipationLanes<lanes> &lost) const
+    {
+      const Bits failing = present & ~points.elastic;
+      if (F::any(failing))
+      {
+        fail(points, present, failing, weight, lost);
+        return;
+      }
+      const Bits state = points.load_state();
+      points.store_tractions(present);
+      points.store_state(state == 0 ? state : elastic_state(points.sigma),
+                         present);
+    }
+
+  private:
+    /** Places in CompositePoint::internal. */
+    static constexpr unsigned int bond = 0, crushing = 1, crack_opening = 2;
+
+    /** Where the return map takes points, as CompositeFlow. */
+    struct Flow
+    {
+      Value sigma, tau, opening, slip, bond;
+      Bits found{}; /**< for which this is the answer */
+    };
+
+    static QUOIN_INLINE Bits fill(const JointState state)
+    {
+      return Bits{} + static_cast<int>(state);
+    }
+    /** The state of points that have failed before and are elastic now. */
+    static QUOIN_INLINE Bits elastic_state(const Value &sigma)
+    {
+      return sigma > 0. ? fill(JointState::open) : fill(JointState::slipped);
+    }
+
+    QUOIN_INLINE Value friction_at(const Value &bond) const
+    {
+      return law.residual_friction
+             + (law.friction - law.residual_friction) * bond;
+    }
+
+    /** See CompositeLaw::update_elastic(). */
+    QUOIN_INLINE Bits is_elastic(const PointArrays &at, const Value &sigma,
+                                 const Value &tau,
+                                 const Value &crack_opening) const
+    {
+      const Value bond_now = F::load(at.internal[bond]);
+      const Bits below
+          = (sigma <= law.tension * bond_now)
+            & (F::absolute(tau)
+               <= law.cohesion * bond_now - sigma * friction_at(bond_now))
+            & ~((sigma < 0.) & (crack_opening > 0.));
+      return below & within_cap(at, sigma, tau, below);
+    }
+
+    /** Whether tractions leave the cap as it was, for the points of @p asked.
+     */
+    QUOIN_INLINE Bits within_cap(const PointArrays &at, const Value &sigma,
+                                 const Value &tau, const Bits &asked) const
+    {
+      const Value load = (law.cap.normal * sigma + law.cap.offset) * sigma
+                         + law.cap.shear * tau * tau;
+      const Bits is_far = load <= law.cap.lowest_load();
+      if (!has_cap || !F::any(asked & ~is_far))
+        return is_far;
+      const Value limit = cap_limit(F::load(at.internal[crushing]));
+      return is_far | (load <= limit * limit);
+    }
+
+    /** See CompositeCap::limit(). */
+    QUOIN_INLINE Value cap_limit(const Value &crushing) const
+    {
+      const CompositeCap &cap = law.cap;
+      const double first = cap.compression / 3., middle = cap.compression / 2.,
+                   last   = cap.compression / 7.;
+      const double km     = cap.middle_crushing();
+      const double width  = km - cap.peak_crushing;
+      const Value rising  = crushing / cap.peak_crushing;
+      const Value falling = (crushing - cap.peak_crushing) / width;
+      const Value limit
+          = crushing < cap.peak_crushing
+                ? first
+                      + (cap.compression - first)
+                            * F::square_root(rising * (2. - rising))
+                : cap.compression
+                      + (middle - cap.compression) * falling * falling;
+      const Bits is_beyond = crushing >= km;
+      if (!F::any(is_beyond))
+        return limit;
+      const double m    = 2. * (middle - cap.compression) / width;
+      const Value decay = F::exponential(m * (crushing - km) / (middle - last));
+      return is_beyond ? last + (middle - last) * decay : limit;
+    }
+
+    /** update() of points of which those of @p failing are not elastic. */
+    void fail(PointLanes<lanes> &points, const Bits &present,
+              const Bits &failing, const Value &weight,
+              DissipationLanes<lanes> &lost) const
+    {
+      const PointArrays &at = points.arrays;
+      const double kn = law.normal_stiffness, ks = law.shear_stiffness;
+      const Value none{};
+      const Value sigma_old     = F::load(at.normal_traction);
+      const Value tau_old       = F::load(at.shear_traction);
+      const Value bond_old      = F::load(at.internal[bond]);
+      const Value crack_old     = F::load(at.internal[crack_opening]);
+      const Bits intact         = points.load_state() == 0;
+      const Value opening_trial = points.opening, slip_trial = points.slip;
+      Value plastic_opening = F::load(at.plastic_opening);
+      Value sigma           = points.sigma;
+      const Value tau       = points.tau;
+
+      // The crack closes first, then the joint is elastic or fails.
+      const Value gap        = plastic_opening - opening_trial;
+      const Bits closes      = failing & (gap > 0.) & (crack_old > 0.);
+      const Value closed     = closes ? F::minimum(gap, crack_old) : none;
+      const Value crack_left = crack_old - closed;
+      Bits sticks            = ~failing;
+      if (F::any(closes))
+      {
+        plastic_opening = closes
+                              ? (closed < crack_old ? opening_trial
+                                                    : plastic_opening - closed)
+                              : plastic_opening;
+        sigma = closes ? kn * (opening_trial - plastic_opening) : sigma;
+        sticks |= closes & is_elastic(at, sigma, tau, crack_left);
+      }
+
+      const Value size      = F::absolute(tau);
+      const Value direction = tau < 0. ? none - 1. : none + 1.;
+      const Flow flow = find_flow(at, present & ~sticks, sigma, size, bond_old);
+      const Bits flows = flow.found;
+      const Bits done  = present & (sticks | flows);
+
+      const Value sigma_new  = flows ? flow.sigma : sigma;
+      const Value tau_new    = flows ? direction * flow.tau : tau;
+      const Value sigma_mean = 0.5 * (sigma_old + sigma_new);
+      const Value slid = 0.5 * (tau_old * direction + flow.tau) * flow.slip;
+      const Value cohesion_lost = F::minimum(
+          slid, 0.5 * law.cohesion * (bond_old + flow.bond) * flow.slip);
+      const Value opened = flows ? flow.opening : none;
+      lost.friction += weight * (flows ? slid - cohesion_lost : none);
+      lost.fracture += weight
+                       * ((flows ? sigma_mean * opened + cohesion_lost : none)
+                          - (done ? sigma_mean * closed : none));
+
+      const Value crack_new
+          = law.cracks_close ? crack_left + opened : crack_left;
+      Bits state = sticks ? elastic_state(sigma)
+                          : (flow.opening > 0. ? fill(JointState::open)
+                             : flow.slip > 0.  ? fill(JointState::slipping)
+                                               : fill(JointState::slipped));
+      state = (intact & (sticks | ~((flow.opening > 0.) | (flow.slip > 0.))))
+                  ? fill(JointState::intact)
+                  : state;
+      state = (closes & (crack_new > 0.)) ? fill(JointState::open) : state;
+
+      points.sigma = sigma_new;
+      points.tau   = tau_new;
+      points.store_tractions(done);
+      points.store_state(state, done);
+      F::store(at.plastic_opening,
+               flows ? opening_trial - sigma_new / kn : plastic_opening,
+               done & (closes | flows));
+      F::store(at.plastic_slip, slip_trial - tau_new / ks, flows);
+      F::store(at.internal[bond], flow.bond, flows);
+      F::store(at.internal[crack_opening], crack_new, done & (closes | flows));
+
+      const unsigned int rest = F::set_lanes(present & ~done);
+      for (int l = 0; l < lanes && rest >> l != 0; ++l)
+        if (rest >> l & 1)
+          update_point(law, points, l, weight[l], lost);
+    }
+
+    /** The flow from trial tractions of the points of @p asked, where there is
+        no crushing, no dilation and no corner. */
+    QUOIN_INLINE Flow find_flow(const PointArrays &at, const Bits &asked,
+                                const Value &sigma, const Value &tau,
+                                const Value &bond_start) const
+    {
+      const Value strength
+          = law.cohesion * bond_start - sigma * friction_at(bond_start);
+      const Bits opens = sigma > law.tension * bond_start;
+      const Bits slips = tau > strength;
+      Flow flow{ sigma, tau, Value{}, Value{}, bond_start };
+      if (law.dilation != 0.)
+        return flow;
+      const Bits slides = asked & slips & ~opens;
+      if (F::any(slides))
+        slide(at, slides, sigma, tau, bond_start, flow);
+      if (F::any(asked & opens))
+        iterate(at, asked & opens, slips, sigma, tau, bond_start, flow);
+      return flow;
+    }
+
+    QUOIN_INLINE Value tolerance(const Value &sigma) const
+    {
+      return 4. * std::numeric_limits<double>::epsilon()
+             * (law.tension + law.cohesion + F::absolute(sigma));
+    }
+
+    /** See CompositeReturnMap::slide(). */
+    QUOIN_INLINE void slide(const PointArrays &at, const Bits &asked,
+                            const Value &sigma, const Value &tau,
+                            const Value &bond_start, Flow &flow) const
+    {
+      const double ks   = law.shear_stiffness;
+      const Value most  = tolerance(sigma);
+      const Value drive = tau + sigma * law.residual_friction;
+      const Value loss
+          = law.cohesion - sigma * (law.friction - law.residual_friction);
+      Value slip{}, bond_now = bond_start;
+      Bits active = asked, found{};
+      for (unsigned int i = 0; i < 10; ++i)
+      {
+        const Value excess = drive - ks * slip - loss * bond_now;
+        if (i > 0)
+        {
+          const Bits ends = active & (F::absolute(excess) <= most);
+          found |= ends;
+          active &= ~ends;
+          if (!F::any(active))
+            break;
+        }
+        const Value slope = ks - slip_softening * loss * bond_now;
+        const Value next  = slip + excess / slope;
+        active &= (slope > 0.) & (next >= 0.) & (ks * next <= tau);
+        slip     = active ? next : slip;
+        bond_now = active ? bond_start * F::exponential(-slip_softening * slip)
+                          : bond_now;
+      }
+      const Value left = tau - ks * slip;
+      found &= sigma - law.tension * bond_now <= most;
+      found &= within_cap(at, sigma, left, found);
+      flow.tau  = found ? left : flow.tau;
+      flow.slip = found ? slip : flow.slip;
+      flow.bond = found ? bond_now : flow.bond;
+      flow.found |= found;
+    }
+
+    /** See CompositeReturnMap::iterate(), of points that open. */
+    QUOIN_INLINE void iterate(const PointArrays &at, const Bits &asked,
+                              const Bits &slips, const Value &sigma_trial,
+                              const Value &tau_trial, const Value &bond_start,
+                              Flow &flow) const
+    {
+      const double kn = law.normal_stiffness, ks = law.shear_stiffness;
+      const double a = opening_softening, b = slip_softening;
+      const Value none{};
+      Value sigma = F::minimum(law.tension * bond_start, sigma_trial);
+      Value tau
+          = slips ? F::minimum(F::maximum(law.cohesion * bond_start
+                                              - sigma * friction_at(bond_start),
+                                          none),
+                               tau_trial)
+                  : tau_trial;
+      Value opening{}, slip{}, bond_now = bond_start;
+      Bits active = asked, found{};
+      for (unsigned int i = 0; i < 10; ++i)
+      {
+        opening       = active ? (sigma_trial - sigma) / kn : opening;
+        slip          = active ? (tau_trial - tau) / ks : slip;
+        const Value u = a * opening, v = b * slip;
+        const Value growth = F::square_root(u * u + v * v);
+        bond_now = active ? bond_start * F::exponential(-growth) : bond_now;
+        const Value friction = friction_at(bond_now);
+        const Value f1       = sigma - law.tension * bond_now;
+        const Value f2       = tau + sigma * friction - law.cohesion * bond_now;
+        const Value most     = tolerance(sigma);
+        const Bits ends      = active & (F::absolute(f1) <= most)
+                          & (~slips | (F::absolute(f2) <= most));
+        found |= ends & (f2 <= most);
+        active &= ~ends;
+        if (!F::any(active))
+          break;
+
+        const Value factor     = growth > 0. ? bond_now / growth : none;
+        const Value bond_sigma = factor * a * u / kn;
+        const Value bond_tau   = factor * b * v / ks;
+        const Value f2_bond
+            = sigma * (law.friction - law.residual_friction) - law.cohesion;
+        const Value J11 = 1. - law.tension * bond_sigma;
+        const Value J12 = -law.tension * bond_tau;
+        const Value J21 = slips ? friction + f2_bond * bond_sigma : none;
+        const Value J22 = slips ? 1. + f2_bond * bond_tau : none + 1.;
+        const Value r2  = slips ? f2 : none;
+        const Value determinant = J11 * J22 - J12 * J21;
+        const Value sigma_next  = sigma - (J22 * f1 - J12 * r2) / determinant;
+        const Value tau_next    = tau - (J11 * r2 - J21 * f1) / determinant;
+        active &= (sigma_next <= sigma_trial) & (tau_next >= 0.)
+                  & (tau_next <= tau_trial);
+        sigma = active ? sigma_next : sigma;
+        tau   = active ? tau_next : tau;
+      }
+      found &= within_cap(at, sigma, tau, found);
+      flow.sigma   = found ? sigma : flow.sigma;
+      flow.tau     = found ? tau : flow.tau;
+      flow.opening = found ? opening : flow.opening;
+      flow.slip    = found ? slip : flow.slip;
+      flow.bond    = found ? bond_now : flow.bond;
+      flow.found |= found;
+    }
+
+    const CompositeLaw law;
+    const double opening_softening, slip_softening;
+    const bool has_cap;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joint_laws_continuously_yielding_law_h
+#define quoin_joint_laws_continuously_yielding_law_h
+
+#include <quoin/joint_laws/rock_point.h>
+
+#include <string>
+
+namespace quoin
+{
+  /**
+   * A stiffness that goes with a power of the pressure, k = kr (s/sr)^e, and
+   * is constant below a lowest and above a highest pressure; e in [0, 1].
+   */
+  struct PowerStiffness
+  {
+    double reference          = 0.; /**< kr [Pa/m] */
+    double exponent           = 0.; /**< e [-] */
+    double reference_traction = 1.; /**< sr [Pa] */
+    double lowest             = 0.; /**< [Pa] */
+    double highest            = 0.; /**< [Pa] */
+
+    /** k [Pa/m] at s [Pa]. */
+    template <typename Number>
+    Number at(const Number &traction) const
+    {
+      using std::pow;
+      if (exponent == 0.)
+        return reference;
+      const double s = value_of(traction);
+      if (s <= lowest || s >= highest)
+        return reference
+               * std::pow((s <= lowest ? lowest : highest) / reference_traction,
+                          exponent);
+      return reference * pow(traction / reference_traction, exponent);
+    }
+  };
+
+  /** The closure whose slope is a PowerStiffness: ds = kn(s) dV. */
+  class PowerClosure
+  {
+  public:
+    explicit PowerClosure(const PowerStiffness &stiffness);
+
+    /** s [Pa] at the closure V [m]; none if that is negative. */
+    template <typename Number>
+    Number traction(const Number &closure) const
+    {
+      using std::exp;
+      using std::pow;
+      const double V = value_of(closure);
+      if (V <= 0.)
+        return 0.;
+      if (V <= low_closure)
+        return low_stiffness * closure;
+      if (V >= high_closure)
+        return law.highest + high_stiffness * (closure - high_closure);
+      const Number x = (closure - low_closure) * (low_stiffness / law.lowest);
+      const double e = 1. - law.exponent;
+      if (e == 0.)
+        return law.lowest * exp(x);
+      return law.lowest * pow(1. + e * x, 1. / e);
+    }
+
+    /** V [m] at s [Pa]. */
+    double closure(double traction) const;
+
+    /** ds/dV [Pa/m] at s [Pa]. */
+    double stiffness(const double traction) const
+    {
+      return law.at(traction);
+    }
+
+    /** Recoverable energy per area [J/m^2] at s [Pa]. */
+    double energy(double traction) const;
+
+    double largest_stiffness() const
+    {
+      return high_stiffness;
+    }
+
+  private:
+    PowerStiffness law;
+    double low_stiffness, high_stiffness; /**< [Pa/m] */
+    double low_closure, high_closure;     /**< range of the power law [m] */
+  };
+
+  /**
+   * The continuously yielding joint of @cite CundallHart1984, @cite Lemos1987
+   * and @cite CundallLemos1990, which has no elastic range in loading:
+   *
+   *     ds = kn(s) dV,  dtau = F ks(s) du,  F = (1 - |tau|/tau_m)/(1 - r),
+   *     tau_m = s tan(phi_m),  dphi_m = -(phi_m - phi)/R dp,  dp = (1 - F)|du|,
+   *
+   * so that phi_m = phi + (phi_m0 - phi) exp(-p/R). r is |tau|/tau_m where
+   * slip last turned to load again, at most 0.75; F is at most 1, and negative
+   * where wear or a falling pressure has left |tau| above tau_m. The joint
+   * dilates by tan(i) dp, i = atan(|tau|/s) - phi, between zero and
+   * phi_m0 - phi.
+   *
+   * Slip against the traction unloads: it is elastic, F = 1, and beyond zero
+   * loading begins with r = 0. tau stays where the pressure changes ks(s);
+   * what that changes of tau^2/(2 ks) is booked as friction, either way. An
+   * open joint transfers nothing.
+   */
+  struct ContinuouslyYieldingLaw : RockLaw<ContinuouslyYieldingLaw>
+  {
+    static constexpr std::array<LawName, 1> names = {
+      { { "continuously yielding",
+          "rock joint with inelastic slip from the start of shearing" } }
+    };
+
+    PowerClosure closure;
+    PowerStiffness stiffness;   /**< ks */
+    double initial_angle  = 0.; /**< phi_m0 [rad] */
+    double residual_angle = 0.; /**< phi [rad] */
+    double roughness      = 0.; /**< R [m] */
+
+    /** r is not above this [-]. */
+    static constexpr double largest_reload = 0.75;
+
+    /** The law of a set of joints, or its entries of the parameter file. */
+    static ContinuouslyYieldingLaw read(LawEntries &entries);
+
+    /** Description of the law for --check. */
+    std::string text() const;
+
+    /** The law with the tangents of both angles divided by @p factor. */
+    ContinuouslyYieldingLaw reduced(double factor) const;
+
+    /** ks [Pa/m] at the traction s [Pa]. */
+    double shear_stiffness(const double traction) const
+    {
+      return stiffness.at(traction);
+    }
+    double largest_shear_stiffness() const
+    {
+      return stiffness.at(stiffness.highest);
+    }
+
+    double slip_by_pressure(const RockPoint &point) const
+    {
+      const DualNumber ks
+          = stiffness.at(DualNumber(-point.normal_traction, -1., 0.));
+      return -point.shear_traction * ks.by[0] / (ks.value * ks.value);
+    }
+
+    /** See find_step(). */
+    template <typename Number>
+    RockFlow<Number> flow(const RockPoint &point, const Number &closure,
+                          const Number &slip) const;
+
+    /** Sets @p point to tractions [Pa] at rest, at zero opening and slip: an
+        offset of closure and slip. */
+    void initialise(RockPoint &point, double normal, double shear) const;
+
+    /** phi_m [rad] after @p worn slip [m]. */
+    template <typename Number>
+    Number bounding_angle(const Number &worn) const
+    {
+      using std::exp;
+      return residual_angle
+             + (initial_angle - residual_angle) * exp(-(worn / roughness));
+    }
+
+    /** Whether the tractions of @p point are admissible; otherwise slip would
+       lower them. */
+    bool holds(const RockPoint &point) const
+    {
+      constexpr double margin = 1e-9;
+      return std::abs(point.shear_traction)
+             <= -(1. + margin) * point.normal_traction
+                    * std::tan(bounding_angle(point.worn_slip));
+    }
+
+  private:
+    /** flow() under a given strength: tractions and slips alone. */
+    template <typename Number>
+    RockFlow<Number> load(const RockPoint &point, const Number &strength,
+                          const Number &ks, const Number &slip) const;
+  };
+
+  template <typename Number>
+  RockFlow<Number>
+  ContinuouslyYieldingLaw::load(const RockPoint &point, const Number &strength,
+                                const Number &ks, const Number &slip) const
+  {
+    using std::abs;
+    using std::exp;
+    RockFlow<Number> result;
+    const double ks_old  = shear_stiffness(-point.normal_traction);
+    const double elastic = point.shear_traction / ks_old;
+    const Number moved   = slip - (point.plastic_slip + elastic);
+    const double sense   = value_of(moved) < 0. ? -1. : 1.;
+    Number way           = sense * moved;
+
+    Number tau  = sense * point.shear_traction; // along the slip
+    Number worn = 0.;
+
+    Number reload = point.reload;
+    if (value_of(tau) < 0.)
+    {
+      const Number left = -tau / ks;
+      if (value_of(way) <= value_of(left))
+      {
+        tau += ks * way;
+        way = 0.;
+        if (value_of(strength) > 0.)
+          reload = -tau / strength;
+        if (value_of(reload) > largest_reload)
+          reload = largest_reload;
+      }
+      else
+      {
+        way -= left;
+        tau    = 0.;
+        reload = 0.;
+      }
+    }
+    if (value_of(way) > 0.)
+    {
+      const Number begin  = way;
+      const Number before = tau;
+      // Elastic as long as F would be above 1.
+      const Number stiff = reload * strength - tau;
+      if (value_of(stiff) > value_of(ks * way))
+      {
+        tau += ks * way;
+        way = 0.;
+      }
+      else if (value_of(stiff) > 0.)
+      {
+        tau += stiff;
+        way -= stiff / ks;
+      }
+      if (value_of(way) > 0.)
+      {
+        if (value_of(strength) > 0.)
+          tau = strength
+                - (strength - tau)
+                      * exp(-(ks * way) / (strength * (1. - reload)));
+        else
+          tau = 0.;
+      }
+      const Number plastic = begin - (tau - before) / ks;
+      worn += plastic;
+      result.slips = value_of(plastic) > 0.5 * value_of(begin);
+    }
+    result.shear_traction = sense * tau;
+    result.plastic_slip   = slip - result.shear_traction / ks;
+    result.wear           = worn;
+    result.reload         = reload;
+    return result;
+  }
+
+  template <typename Number>
+  RockFlow<Number> ContinuouslyYieldingLaw::flow(const RockPoint &point,
+                                                 const Number &closure_now,
+                                                 const Number &slip) const
+  {
+    using std::abs;
+    using std::atan;
+    using std::exp;
+    using std::tan;
+    const Number traction = closure.traction(closure_now);
+    const Number ks       = stiffness.at(traction);
+
+    // By the wear in the middle of the step.
+    const Number first
+        = load(point, traction * tan(bounding_angle(Number(point.worn_slip))),
+               ks, slip)
+              .wear;
+    Number angle = bounding_angle(Number(point.worn_slip + 0.5 * first));
+    RockFlow<Number> result = load(point, traction * tan(angle), ks, slip);
+    const Number tau        = abs(result.shear_traction);
+    if (value_of(tau) >= value_of(traction) * std::tan(initial_angle))
+    {
+      if (value_of(traction) > 0.)
+        angle = initial_angle;
+    }
+    else
+      angle = atan(tau / traction);
+    const Number dilation = tan(angle - residual_angle);
+    if (value_of(dilation) > 0.)
+      result.opening = dilation * result.wear;
+    return result;
+  }
+} // namespace quoin
+
+#endif

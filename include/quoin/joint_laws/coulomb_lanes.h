@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joint_laws_coulomb_lanes_h
+#define quoin_joint_laws_coulomb_lanes_h
+
+#include <quoin/joint_laws/coulomb_law.h>
+#include <quoin/joints/joint_lanes.h>
+
+namespace quoin
+{
+  template <int lanes>
+  class LawLanes<CoulombLaw, lanes>
+  {
+  public:
+    using F     = LaneFunctions<lanes>;
+    using Value = typename F::Value;
+    using Bits  = typename F::Bits;
+
+    explicit LawLanes(const CoulombLaw &law) : law(law)
+    {
+    }
+
+    QUOIN_INLINE Bits try_elastic(PointLanes<lanes> &points) const
+    {
+      const PointArrays &at = points.arrays;
+      const Bits state      = points.load_state();
+      const Bits intact     = state == number(JointState::intact);
+      const Value none{};
+      const Value tension
+          = intact ? none + law.peak.tension : none + law.residual.tension;
+      const Value cohesion
+          = intact ? none + law.peak.cohesion : none + law.residual.cohesion;
+      const Value friction
+          = intact ? none + law.peak.friction : none + law.residual.friction;
+
+      points.sigma = law.normal_stiffness
+                     * (points.opening - F::load(at.plastic_opening));
+      points.tau
+          = law.shear_stiffness * (points.slip - F::load(at.plastic_slip));
+      points.elastic = (points.sigma <= tension)
+                       & (F::absolute(points.tau) <= F::maximum(
+                              none, cohesion - points.sigma * friction));
+      return points.elastic & (intact | (state == number(JointState::slipped)));
+    }
+
+    QUOIN_INLINE void update(PointLanes<lanes> &points, const Bits &present,
+                             const Value &weight,
+                             DissipationLanes<lanes> &lost) const
+    {
+      const PointArrays &at = points.arrays;
+      const double kn = law.normal_stiffness, ks = law.shear_stiffness;
+      const double tension  = law.residual.tension;
+      const double friction = law.residual.friction;
+      const Value none{};
+      const Bits intact  = points.load_state() == number(JointState::intact);
+      const Bits failing = present & ~points.elastic;
+      Bits state         = intact ? none_of_state : fill(JointState::slipped);
+      if (F::any(failing))
+      {
+        const Value sigma_old       = F::load(at.normal_traction);
+        const Value tau_old         = F::load(at.shear_traction);
+        const Value plastic_slip    = F::load(at.plastic_slip);
+        const Value plastic_opening = F::load(at.plastic_opening);
+        const Value sigma = points.sigma, tau = points.tau;
+        const Bits open = sigma > tension;
+
+        // See CoulombLaw::update_failing().
+        const Value opened = (0.5 * (sigma_old + tension) * (sigma - sigma_old)
+                              + 0.5 * sigma_old * sigma_old
+                              - tension * (sigma - 0.5 * tension))
+                             / kn;
+        const Value unloaded = 0.5 * tau_old * (points.slip - plastic_slip);
+
+        const Value size      = F::absolute(tau);
+        const Value direction = tau < 0. ? none - 1. : none + 1.;
+        const Value along     = direction * points.slip;
+        const Value psi
+            = F::absolute(along) < law.critical_shear_displacement
+                  ? (along >= 0. ? none + law.dilation : none - law.dilation)
+                  : none;
+        const Value excess = size - law.residual.cohesion + sigma * friction;
+        Value stiffness    = ks + kn * psi * friction;
+        stiffness          = stiffness > 0.1 * ks ? stiffness : none + ks;
+        const Value dp
+            = F::minimum(F::maximum(none, excess) / stiffness, size / ks);
+        const Value sigma_slid = sigma - kn * psi * dp;
+        const Value tau_slid   = tau - direction * ks * dp;
+        const Value rubbed     = 0.5
+                             * ((tau_old + tau_slid) * direction
+                                + (sigma_old + sigma_slid) * psi)
+                             * dp;
+
+        lost.friction
+            += weight
+               * (failing ? (open ? (intact ? none : unloaded) : rubbed)
+                          : none);
+        lost.fracture
+            += weight * ((failing & open & intact) ? opened + unloaded : none);
+
+        const Value opening_slid = plastic_opening + psi * dp;
+        const Value slip_slid    = plastic_slip + direction * dp;
+        points.sigma = failing ? (open ? none + tension : sigma_slid) : sigma;
+        points.tau   = failing ? (open ? none : tau_slid) : tau;
+        F::store(at.plastic_slip, open ? points.slip : slip_slid, failing);
+        F::store(at.plastic_opening, opening_slid, failing & ~open);
+        state = failing ? (open ? fill(JointState::open)
+                                : fill(JointState::slipping))
+                        : state;
+      }
+      points.store_tractions(present);
+      points.store_state(state, present);
+    }
+
+  private:
+    static constexpr Bits none_of_state{};
+
+    static constexpr int number(const JointState state)
+    {
+      return static_cast<int>(state);
+    }
+    static QUOIN_INLINE Bits fill(const JointState state)
+    {
+      return Bits{} + number(state);
+    }
+
+    const CoulombLaw law;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loading_constraint_checks_h
+#define quoin_loading_constraint_checks_h
+
+#include <quoin/loads/motion_constraint.h>
+#include <quoin/model/model.h>
+#include <quoin/stages/stage_parameters.h>
+
+#include <vector>
+
+namespace quoin
+{
+  // What the @p constraints that act in @p stage may not do together; each
+  // throws an InputError. Collective.
+
+  /** Refuses constraints of blocks that are absent in @p state, except
+      prescribed motions. */
+  template <int dim>
+  void
+  refuse_absent_nodes(const Model<dim> &model,
+                      const std::vector<MotionConstraint<dim> *> &constraints,
+                      const StageParameters &stage, const State<dim> &state);
+
+  /** Refuses two platens that share a node. */
+  template <int dim>
+  void
+  refuse_shared_platens(const Model<dim> &model,
+                        const std::vector<MotionConstraint<dim> *> &constraints,
+                        const StageParameters &stage);
+
+  /** The rigid blocks that platens move; refuses one that is held in part or by
+      something else. */
+  std::vector<bool>
+  find_held_blocks(const Model<2> &model,
+                   const std::vector<MotionConstraint<2> *> &constraints,
+                   const StageParameters &stage);
+} // namespace quoin
+
+#endif

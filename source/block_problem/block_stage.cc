@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/dynamics/state_checks.h>
+#include <quoin/operators/archive.h>
+#include <quoin/block_problem/block_stage.h>
+#include <quoin/results/result_origin.h>
+
+namespace quoin
+{
+  namespace
+  {
+    double degrees(const double radians)
+    {
+      return radians * 180. / dealii::numbers::PI;
+    }
+  } // namespace
+
+  template <int dim>
+  BlockContext<dim>::BlockContext(const Parameters &parameters,
+                                  MeshData<dim> mesh, const RunContext &run)
+    : run(run), system(parameters, std::move(mesh), run.communicator),
+      steps(system, run.log), outputs(system, run),
+      state(system.initial_state()), searches(parameters.stages.size()),
+      outcomes(parameters.stages.size()), loads(parameters.stages.size()),
+      damping_shares(parameters.stages.size())
+  {
+    state.template add<ResultOrigin<dim>>();
+    for (const StageParameters &stage : parameters.stages)
+      if (stage.pattern && stage.pattern->controlled != "mean")
+        naming(parameters.file,
+               [&]()
+               {
+                 system.solver->loads().controls[stage.name]
+                     = outputs.histories().terms_of(stage.pattern->controlled,
+                                                    "section 'Stages/"
+                                                        + stage.name + "': ");
+               });
+  }
+
+  template <int dim>
+  double BlockContext<dim>::energy_residual() const
+  {
+    const Energies &energies = system.solver->energies();
+    const double scale       = energies.throughput();
+    return scale > 0. ? energies.residual() / scale : 0.;
+  }
+
+  template <int dim>
+  BlockStage<dim>::BlockStage(BlockContext<dim> &context,
+                              const unsigned int index)
+    : context(context), system(context.system), outputs(context.outputs),
+      log(context.run.log), index(index),
+      stage(system.parameters.stages[index]), state(context.state),
+      conditions(end_conditions(stage, system.parameters.histories))
+  {
+  }
+
+  template <int dim>
+  void BlockStage<dim>::begin_model()
+  {
+    system.begin_stage(index, state);
+    outputs.begin_stage(stage.reset, state);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::end()
+  {
+    finish();
+    system.solver->check_finite(state);
+    check_cells(*system.model, state, stage.loads);
+    follow_joint_motion();
+    warn_of_joint_motion();
+    if (const std::string what = context.loads[index].warning(); !what.empty())
+      log.warning("stage ", stage.name, ": ", what);
+    warn_of_damping();
+    warn_of_control();
+    keep_unreleased_forces();
+    note_outcome();
+    outputs.end_stage(state);
+    ++state.stage;
+    outputs.write_fields(state);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_control() const
+  {
+    /** Largest distance from the control function at the end of a stage, by its
+        largest value. */
+    constexpr double largest    = 0.05;
+    const auto &pattern         = system.solver->stage_loads().pattern;
+    const LoadPatternState &own = state.template get<LoadPatternState>();
+    if (!pattern || !system.explicit_solver)
+      return;
+    const double moved = pattern->displacement(state.nodes) - own.start;
+    const double lag   = pattern->target(state.load_time) - moved;
+    if (std::abs(lag) > largest * pattern->largest_target())
+      log.warning(
+          "stage ", stage.name, ": the displacement '",
+          stage.pattern->controlled, "' is ", moved, " m at the end, ", lag,
+          " m away from the 'Control function'. The load factor belongs to the "
+          "actual motion; to follow the function closely take a longer "
+          "'Duration', more damping, or 'Controlled displacement = mean'.");
+  }
+
+  template <int dim>
+  void BlockStage<dim>::before_row()
+  {
+    outputs.before_row(state);
+    load_time = state.load_time;
+    is_first  = state.stage_step == 0;
+    if (const auto &pattern = system.solver->stage_loads().pattern)
+      controlled = pattern->displacement(state.nodes)
+                   - state.template get<LoadPatternState>().start;
+  }
+
+  template <int dim>
+  void BlockStage<dim>::record_loads(const double time)
+  {
+    // The forces of an explicit stage's first step are an impact if a load
+    // jumps there.
+    if (is_first && system.explicit_solver)
+      return;
+    LoadRecord &record           = context.loads[index];
+    const StageLoads<dim> &loads = system.solver->stage_loads();
+    if (loads.pattern)
+      record.add_factor(state.template get<LoadPatternState>().factor,
+                        controlled, time);
+    // In equilibrium supports take all.
+    if (stage.is_dynamic() || !system.explicit_solver
+        || loads.constraints.empty())
+      return;
+    record.add_forces(force_balance(system, state, load_time), time,
+                      stage.end == StageEnd::time);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::write_row()
+  {
+    std::vector<double> row = outputs.write_row(state);
+    record_loads(row.front());
+    if (conditions.empty() || is_to_end())
+      return;
+    // One rank decides for all, whatever their sums are rounded to.
+    MPI_Bcast(row.data(), int(row.size()), MPI_DOUBLE, 0,
+              context.run.communicator);
+    const std::size_t met = conditions.find_met(row, context.peaks);
+    if (met == stage.end_conditions.size())
+      return;
+    const EndCondition &condition = stage.end_conditions[met];
+    context.outcomes[index]
+        = { condition.outcome, condition.expression, row.front(), state.step };
+  }
+
+  template <int dim>
+  void BlockStage<dim>::fail(const std::string &why)
+  {
+    context.failure = why;
+    outputs.write_fields(state);
+    throw FailedStep("stage '" + stage.name + "': " + why);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::keep_unreleased_forces()
+  {
+    if (context.outcomes[index].condition.empty())
+      return;
+    const double share
+        = system.solver->stage_loads().release.share(state.load_time);
+    for (HeldForces<dim> &item :
+         state.template get<ConstructionState<dim>>().held)
+      item.left_at_end += (1. - share) * (item.left - item.left_at_end);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::note_outcome()
+  {
+    context.peaks.clear();
+    context.joint_motion = {};
+    StageOutcome &ended  = context.outcomes[index];
+    if (ended.outcome.empty())
+      ended = { stage.safety                  ? "factor of safety"
+                : stage.end == StageEnd::time ? "time over"
+                                              : "at rest",
+                "", state.time, state.step };
+    log.message("stage ", stage.name, ": ", ended.outcome,
+                ended.condition.empty()
+                    ? ""
+                    : ", condition '" + ended.condition + "' met",
+                " at time ", ended.time, " s, step ", ended.step);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::follow_joint_motion()
+  {
+    /** Turn of blocks at which small displacements tell nothing [rad]. */
+    constexpr double absurd = dealii::numbers::PI / 4.;
+    if (system.model->parameters().large_displacements)
+      return;
+    const JointMotion now = joint_motion(*system.model, state);
+    context.joint_motion.take_larger(now);
+    const double diagonal = system.nodes->table().diagonal();
+    if (now.turn <= absurd && now.distance <= diagonal)
+      return;
+    fail(text_of(
+        now.turn > absurd
+            ? text_of("blocks that share a joint have turned by ",
+                      degrees(now.turn), " degrees against each other")
+            : text_of("joints have moved apart by ", now.distance,
+                      " m, more than the diagonal of the model, ", diagonal,
+                      " m"),
+        ", found at time ", state.time, " s, step ", state.step,
+        ": small displacements leave blocks where they are, so that nothing "
+        "after the first degrees means anything. ",
+        dim == 2 ? "Take 'Displacements = large' in section 'Contact', or end "
+                 : "End ",
+        "the stage before by 'End conditions'."));
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_joint_motion() const
+  {
+    /** Slip by face length at which half of the edges still overlap [-]. */
+    constexpr double most_slip = 0.5;
+    /** Turn of blocks, five degrees, which changes lever arms by a tenth of
+        those of a column ten times as high as wide [rad]. */
+    constexpr double most_turn = 5. * dealii::numbers::PI / 180.;
+    const JointMotion &motion  = context.joint_motion;
+    if (motion.slip > most_slip)
+      log.warning(
+          "stage ", stage.name, ": joints have slipped by up to ",
+          100. * motion.slip,
+          " % of the edges that touch, but small displacements leave "
+          "blocks where they are: areas and neighbours no longer hold. ",
+          dim == 2 ? "Take 'Displacements = large' in section 'Contact'."
+                   : "End the stage before by 'End conditions'.");
+    if (motion.turn > most_turn)
+      log.warning("stage ", stage.name,
+                  ": blocks that share a joint have "
+                  "turned by up to ",
+                  degrees(motion.turn),
+                  " degrees against each other, but small displacements leave "
+                  "blocks where they are: lever arms and contacts no longer "
+                  "hold. Take 'Displacements = large' in section 'Contact'.");
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_damping() const
+  {
+    const LocalDampingShare &share = context.damping_shares[index];
+    if (stage.end == StageEnd::time && share.is_large())
+      log.warning("stage ", stage.name, ": local damping opposed ",
+                  100. * share.sum / double(share.n),
+                  " % of the applied forces on average, and more than ",
+                  100. * LocalDampingShare::large, " % during ",
+                  100. * double(share.n_large) / double(share.n),
+                  " % of the stage. It resists steady motion: reactions may be "
+                  "wrong by several times that fraction, and a collapse may "
+                  "come too early or too late. Take 'Damping = adaptive', or "
+                  "'Rayleigh' with a stiffness coefficient.");
+  }
+
+  template <int dim>
+  ProgressFigures BlockStage<dim>::figures_at(const double fraction) const
+  {
+    ProgressFigures figures;
+    figures.stage    = stage.name;
+    figures.time     = state.time;
+    figures.step     = state.step;
+    figures.fraction = fraction;
+    if (const ExplicitSolver<dim> *solver = system.explicit_solver)
+      figures.share_of_critical
+          = solver->get_time_step() / solver->critical_time_step();
+    figures.unbalanced_ratio = state.unbalanced_ratio;
+    figures.energy_residual  = context.energy_residual();
+    return figures;
+  }
+
+  template <int dim>
+  double BlockStage<dim>::load_share() const
+  {
+    return state.template get<ImplicitState>().released < 1.
+               ? 0.
+               : state.load_time / system.implicit_solver->duration();
+  }
+
+  template <int dim>
+  bool BlockStage<dim>::has_settled() const
+  {
+    constexpr auto interval = ExplicitSolver<dim>::balance_interval;
+    return state.time - state.stage_start >= stage.minimum_duration
+           && state.stage_step > interval
+           && state.unbalanced_ratio <= stage.static_ratio
+           && !system.solver->stage_loads().change(
+               state, interval * system.explicit_solver->get_time_step());
+  }
+
+  template struct BlockContext<2>;
+  template struct BlockContext<3>;
+  template class BlockStage<2>;
+  template class BlockStage<3>;
+} // namespace quoin

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/number_text.h>
+#include <quoin/model/block_placement.h>
+#include <quoin/block_problem/load_record.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr std::array<const char *, 3> axis_names = { "x", "y", "z" };
+
+    /** Difference of the forces, by the size of the loads, that is warned of
+        [-]. */
+    constexpr double most_difference = 0.05;
+    /** Change of the applied force, by that size, that is loading [-]. */
+    constexpr double least_change = 0.01;
+    /** Most means of rows that are kept; an even number. */
+    constexpr unsigned int most_means = 512;
+    /** Windows of the stage whose means are compared: that many have room, one
+        behind the other. */
+    constexpr unsigned int n_windows = 10;
+  } // namespace
+
+  void LoadRecord::add_factor(const double factor, const double displacement,
+                              const double time)
+  {
+    if (peak.time < 0. || std::abs(factor) > std::abs(peak.factor))
+      peak = { factor, displacement, time };
+  }
+
+  void LoadRecord::add_forces(const ForceBalance &forces, const double time,
+                              const bool to_means)
+  {
+    const auto &[applied, supports, size] = forces;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      Axis &axis     = axes[d];
+      axis.lowest    = std::min(axis.lowest, applied[d]);
+      axis.highest   = std::max(axis.highest, applied[d]);
+      axis.size      = std::max(axis.size, size[d]);
+      axis.most_up   = std::max(axis.most_up, supports[d]);
+      axis.most_down = std::max(axis.most_down, -supports[d]);
+      // Constant loads have rounding.
+      if (std::abs(applied[d]) < (1. - 1e-9) * std::abs(axis.applied))
+        continue;
+      axis.applied = applied[d];
+      axis.time    = time;
+    }
+    if (!to_means)
+      return;
+    sum[0] += time;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      sum[1 + d] += applied[d];
+      sum[4 + d] += supports[d];
+    }
+    if (++n_summed < n_per_mean)
+      return;
+    for (double &value : sum)
+      means.push_back(value / n_per_mean);
+    sum.assign(n_numbers, 0.);
+    n_summed = 0;
+    if (means.size() < n_numbers * most_means)
+      return;
+    for (unsigned int i = 0; i < most_means / 2; ++i)
+      for (unsigned int k = 0; k < n_numbers; ++k)
+        means[n_numbers * i + k] = 0.5
+                                   * (means[n_numbers * 2 * i + k]
+                                      + means[n_numbers * (2 * i + 1) + k]);
+    means.resize(n_numbers * most_means / 2);
+    n_per_mean *= 2;
+  }
+
+  double LoadRecord::Axis::taken() const
+  {
+    return applied > 0. ? most_down : -most_up;
+  }
+
+  std::optional<LoadRecord::Lack>
+  LoadRecord::lack_of_means(const unsigned int d) const
+  {
+    const std::size_t n     = means.size() / n_numbers;
+    const std::size_t width = n / n_windows;
+    if (width < 2)
+      return {};
+    const double sign = axes[d].applied > 0. ? 1. : -1.;
+    Lack most{ 0., 0., 0., true };
+    for (std::size_t begin = 0; begin + width <= n; ++begin)
+    {
+      double time = 0., applied = 0., taken = 0.;
+      for (std::size_t i = begin; i < begin + width; ++i)
+      {
+        const double *row = &means[n_numbers * i];
+        time += row[0] / double(width);
+        applied += row[1 + d] / double(width);
+        taken -= row[4 + d] / double(width);
+      }
+      most.taken = sign * std::max(sign * most.taken, sign * taken);
+      if (sign * applied < sign * most.applied)
+        continue;
+      most.applied = applied;
+      most.time    = time;
+    }
+    return most;
+  }
+
+  std::optional<LoadRecord::Lack> LoadRecord::lack(const unsigned int d) const
+  {
+    const Axis &axis = axes[d];
+    if (!(axis.highest - axis.lowest > least_change * axis.size))
+      return {};
+    const Lack of_rows{ axis.applied, axis.taken(), axis.time, false };
+    for (const auto &found : { std::optional(of_rows), lack_of_means(d) })
+      if (found
+          && std::abs(found->applied) - std::abs(found->taken)
+                 > most_difference * axis.size)
+        return found;
+    return {};
+  }
+
+  std::string LoadRecord::warning() const
+  {
+    std::string text;
+    for (unsigned int d = 0; d < 3; ++d)
+      if (const auto found = lack(d))
+        text += text_of(
+            text.empty() ? "" : " ", "along ", axis_names[d],
+            " the loads came to ", found->applied, " N at time ", found->time,
+            " s, but the supports took ", found->taken, " N at the most",
+            found->is_of_means ? ", by means over a tenth of the stage" : "",
+            ": the difference, ",
+            100. * std::abs(1. - found->taken / found->applied),
+            " %, accelerated the model or was damped, so that the applied load "
+            "is not the resistance of the model.");
+    if (!text.empty())
+      text += " Load more slowly; beyond a limit load control a displacement, "
+              "by 'Load pattern'.";
+    return text;
+  }
+
+  void LoadRecord::summarise(nlohmann::ordered_json &stage) const
+  {
+    if (peak.time >= 0.)
+      stage["largest load factor"]
+          = { { "factor", peak.factor },
+              { "controlled displacement [m]", peak.displacement },
+              { "time [s]", peak.time } };
+    for (unsigned int d = 0; d < 3; ++d)
+      if (const auto found = lack(d))
+        stage["supports do not take the loads"][axis_names[d]]
+            = { { "applied [N]", found->applied },
+                { "supports [N]", -found->taken },
+                { "time [s]", found->time } };
+  }
+
+  template <int dim>
+  ForceBalance force_balance(const BlockSystem<dim> &system,
+                             const State<dim> &state, const double load_time)
+  {
+    const StageLoads<dim> &loads = system.solver->stage_loads();
+    const NodeMap<dim> &nodes    = *system.nodes;
+    const TimePoint time{ load_time, state.stage_start + load_time };
+    AlignedArray<dealii::Tensor<1, dim>> force(nodes.n_local(),
+                                               dealii::Tensor<1, dim>());
+    for (const NodalLoad<dim> *load : loads.nodal)
+      load->add_loads(time, force.data());
+    loads.release.add_loads(time, force.data());
+    const auto absent = absent_nodes(*system.model, state);
+    ForceBalance result;
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      for (unsigned int d = 0; d < dim && !absent[i]; ++d)
+      {
+        result.applied[d] += force[i][d];
+        result.size[d] += std::abs(force[i][d]);
+      }
+    for (auto *const sums : { &result.applied, &result.size })
+      MPI_Allreduce(MPI_IN_PLACE, sums->data(), 3, MPI_DOUBLE, MPI_SUM,
+                    nodes.communicator());
+    if (loads.pattern)
+    {
+      const double factor = state.template get<LoadPatternState>().factor;
+      const auto all      = loads.pattern->resultant();
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        result.applied[d] += factor * all[d];
+        result.size[d] += std::abs(factor * all[d]);
+      }
+    }
+    for (const MotionConstraint<dim> *constraint : loads.constraints)
+    {
+      const auto &traits = constraint->traits();
+      const auto forces  = system.solver->resultant(constraint->name());
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const bool is_load = traits.is_rigid_body() && !traits.holds[d];
+        (is_load ? result.applied : result.supports)[d] += forces[d];
+        result.size[d] += is_load ? std::abs(forces[d]) : 0.;
+      }
+    }
+    return result;
+  }
+
+  template ForceBalance force_balance(const BlockSystem<2> &, const State<2> &,
+                                      double);
+  template ForceBalance force_balance(const BlockSystem<3> &, const State<3> &,
+                                      double);
+} // namespace quoin

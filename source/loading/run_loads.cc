@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/base/nearest_name.h>
+#include <quoin/loading/run_loads.h>
+#include <quoin/loads/free_field_boundary.h>
+#include <quoin/loads/joint_crack.h>
+#include <quoin/loads/load_field.h>
+#include <quoin/loads/platen.h>
+#include <quoin/loads/prescribed_motion.h>
+#include <quoin/loads/viscous_boundary.h>
+#include <quoin/model/material_waves.h>
+
+#include <algorithm>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Lets the @p uplift of @p load follow cracks, if it does. */
+    void follow_cracks(const Model<2> &model, const LoadParameters &load,
+                       NodalLoad<2> &uplift)
+    {
+      const UpliftDiagram &diagram = *load.pressure.field->uplift();
+      if (!diagram.enters_cracks)
+        return;
+      const std::string section
+          = "section 'Loads/" + load.name + "': 'In cracks = full head' ";
+      if (model.parameters().large_displacements)
+        throw InputError(
+            section
+            + "needs joints of the mesh, but with 'Displacements = "
+              "large' they become contacts. Take 'small' in section "
+              "'Contact', or 'given'.");
+      uplift.set_crack(std::make_shared<JointCrack>(
+          diagram, load.boundaries, load.name, model.nodes(), model.joints()));
+    }
+
+    void follow_cracks(const Model<3> &, const LoadParameters &load,
+                       NodalLoad<3> &)
+    {
+      throw InputError(
+          "section 'Loads/" + load.name
+          + "': 'Pressure = uplift' is known in two dimensions "
+            "alone. Give the pressure as a function of the place.");
+    }
+  } // namespace
+
+  template <int dim>
+  RunLoads<dim>::RunLoads(const Model<dim> &model,
+                          const std::vector<LoadParameters> &loads,
+                          std::unique_ptr<FarField> far_field,
+                          std::unique_ptr<StaticFarField> static_field)
+  {
+    const auto &nodes = model.nodes();
+    for (const LoadParameters &load : loads)
+    {
+      names.push_back(load.name);
+      if (load.has_added_mass)
+        with_added_mass.push_back(load.name);
+      switch (load.type)
+      {
+      case LoadType::viscous_boundary:
+        constraints.push_back(std::make_unique<ViscousBoundary<dim>>(
+            load, nodes, impedance_beyond(model, load), model.thickness()));
+        break;
+      case LoadType::prescribed_motion:
+        constraints.push_back(
+            std::make_unique<PrescribedMotion<dim>>(load, nodes));
+        break;
+      case LoadType::traction:
+      case LoadType::gravity:
+        nodal.emplace_back(load, nodes, model.mass(), model.thickness());
+        if (load.pressure.field && load.pressure.field->uplift())
+          follow_cracks(model, load, nodal.back());
+        break;
+      case LoadType::platen:
+        if constexpr (dim == 2)
+          constraints.push_back(std::make_unique<Platen>(load, nodes));
+        break;
+      case LoadType::boundary_elements:
+        if constexpr (dim == 2)
+          add_far_fields(std::move(far_field), std::move(static_field));
+        break;
+      case LoadType::initial_stress:
+      case LoadType::free_field:
+        break;
+      }
+    }
+    if constexpr (dim == 2)
+      add_free_fields(model, loads);
+  }
+
+  template <>
+  void RunLoads<2>::add_far_fields(std::unique_ptr<FarField> far_field,
+                                   std::unique_ptr<StaticFarField> static_field)
+  {
+    far.elastodynamic = far_field.get();
+    if (far_field)
+      constraints.push_back(std::move(far_field));
+    far.elastostatic = static_field.get();
+    if (static_field)
+      constraints.push_back(std::move(static_field));
+  }
+
+  template <>
+  void RunLoads<2>::add_free_fields(const Model<2> &model,
+                                    const std::vector<LoadParameters> &loads)
+  {
+    for (const LoadParameters &load : loads)
+    {
+      if (load.type != LoadType::free_field)
+        continue;
+      const auto base = std::find_if(loads.begin(), loads.end(),
+                                     [&](const LoadParameters &other)
+                                     { return other.name == load.base; });
+      if (base == loads.end()
+          || (base->type != LoadType::viscous_boundary
+              && base->type != LoadType::prescribed_motion))
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Base = " + load.base
+                         + "' must name the load that drives the base of the "
+                           "model, of type 'viscous boundary' or 'prescribed "
+                           "motion'.");
+      if (base->differs_by_place())
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Base = " + load.base
+                         + "' is a motion that differs from place to place, "
+                           "but waves in the column beside the model are those "
+                           "of one motion. Give the base a function of time "
+                           "alone.");
+      constraints.push_back(std::make_unique<FreeFieldBoundary>(
+          load, model.nodes(), free_field_ground(model),
+          FreeFieldBase{ *base, impedance_beyond(model, *base) }));
+    }
+  }
+
+  template <int dim>
+  bool RunLoads<dim>::acts_in(const MotionConstraint<dim> &constraint,
+                              const StageParameters &stage) const
+  {
+    if constexpr (dim == 2)
+    {
+      const bool is_static = stage.end == StageEnd::static_ratio;
+      if ((&constraint == far.elastodynamic && is_static)
+          || (&constraint == far.elastostatic && far.elastodynamic
+              && !is_static))
+        return false;
+    }
+    return names_load(stage, constraint.name());
+  }
+
+  template <int dim>
+  bool RunLoads<dim>::has_added_mass(const std::string &load) const
+  {
+    return std::count(with_added_mass.begin(), with_added_mass.end(), load) > 0;
+  }
+
+  template <int dim>
+  void RunLoads<dim>::check(const StageParameters &stage) const
+  {
+    for (const std::string &name : stage.loads)
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        throw InputError("section 'Stages/" + stage.name + "': 'Loads' names '"
+                         + name + "', which is no load. Loads are: "
+                         + known_names_like(name, names) + ".");
+
+    for (const auto &constraint : constraints)
+      if (names_load(stage, constraint->name())
+          && !constraint->traits().companion.empty()
+          && !names_load(stage, constraint->traits().companion))
+        throw InputError(
+            "section 'Stages/" + stage.name + "': 'Loads' names '"
+            + constraint->name() + "', whose columns stand on the base '"
+            + constraint->traits().companion + "', but not that. Add it.");
+
+    if (stage.slows_loads())
+      for (const auto &constraint : constraints)
+        if (constraint->traits().kind == MotionKind::absorbing
+            && acts_in(*constraint, stage))
+          throw InputError("section 'Stages/" + stage.name
+                           + "': 'Kinetic energy limit' slows loads down, "
+                             "which waves through the boundary of the load '"
+                           + constraint->name()
+                           + "' cannot follow. Set it to 0, or use that load "
+                             "in another stage.");
+  }
+
+  template <int dim>
+  std::array<double, 3>
+  RunLoads<dim>::resultant(const std::string &load,
+                           const MPI_Comm communicator) const
+  {
+    const MotionConstraint<dim> *idle = nullptr; // of two with one name
+    if constexpr (dim == 2)
+    {
+      if (far.elastostatic_acts)
+        idle = far.elastodynamic;
+      else
+        idle = far.elastostatic;
+    }
+    for (const auto &constraint : constraints)
+      if (constraint->name() == load && constraint.get() != idle)
+      {
+        auto values = constraint->resultant();
+        if (!constraint->traits().is_rigid_body())
+          MPI_Allreduce(MPI_IN_PLACE, values.data(), 3, MPI_DOUBLE, MPI_SUM,
+                        communicator);
+        return values;
+      }
+    throw InputError("'" + load
+                     + "' is no prescribed motion, platen, viscous or "
+                       "free-field boundary, so it has no reaction.");
+  }
+
+  template struct RunLoads<2>;
+  template struct RunLoads<3>;
+} // namespace quoin

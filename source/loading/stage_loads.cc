@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
+#include <quoin/loading/stage_loads.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Values of the functions of time of @p constraint; 0 without them. */
+    template <int dim>
+    std::array<double, 3> values_of(const MotionConstraint<dim> &constraint,
+                                    const TimePoint &time)
+    {
+      return constraint.parts() ? component_values(*constraint.parts(), time)
+                                : std::array<double, 3>{};
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<std::array<double, 5>>
+  StageLoads<dim>::values(const double stage_start,
+                          const double load_time) const
+  {
+    const TimePoint time{ load_time, stage_start + load_time };
+    std::vector<std::array<double, 5>> result;
+    for (const NodalLoad<dim> *load : nodal)
+      result.push_back(load->amplitude(time));
+    for (const MotionConstraint<dim> *constraint : constraints)
+    {
+      const auto [x, y, rotation] = values_of(*constraint, time);
+      result.push_back({ x, y, rotation, 0., 0. });
+    }
+    if (beams)
+      for (const double load : beams->loads(time))
+        result.push_back({ load, 0., 0., 0., 0. });
+    return result;
+  }
+
+  template <int dim>
+  bool StageLoads<dim>::change(const State<dim> &state,
+                               const double duration) const
+  {
+    constexpr double earliest = 1e-9; // [s]
+    const double now          = state.load_time;
+    const double before       = std::max(0., now - duration);
+    const auto present        = values(state.stage_start, now);
+    if (present != values(state.stage_start, before))
+      return true;
+    if (release.changes() && release.share(before) != release.share(now))
+      return true;
+    for (double t = late_time; t > std::max(now, earliest); t *= 0.9)
+      if (present != values(state.stage_start, t))
+        return true;
+    return false;
+  }
+
+  template <int dim>
+  void StageLoads<dim>::check_start(const State<dim> &state) const
+  {
+    for (const MotionConstraint<dim> *constraint : constraints)
+      if (constraint->parts())
+        check_no_jump<dim>(*constraint->parts(), { 0., state.time },
+                           constraint->name());
+  }
+
+  template <int dim>
+  void StageLoads<dim>::check_finite(const StageParameters &stage,
+                                     const State<dim> &state,
+                                     const double load_time) const
+  {
+    const TimePoint time{ load_time, state.stage_start + load_time };
+    const auto check = [&](const auto &values, const std::string &name)
+    {
+      if (!std::all_of(values.begin(), values.end(),
+                       [](const double value) { return std::isfinite(value); }))
+        throw RunError("the load '" + name
+                       + "' is no finite number at the time "
+                       + number_text(time.stage) + " s of stage '" + stage.name
+                       + "', T = " + number_text(time.total)
+                       + " s. Correct its function of time in section 'Loads/"
+                       + name + "', or end the stage earlier.");
+    };
+    for (const NodalLoad<dim> *load : nodal)
+      check(load->amplitude(time), load->name());
+    for (const MotionConstraint<dim> *constraint : constraints)
+      check(values_of(*constraint, time), constraint->name());
+  }
+
+  template <int dim>
+  std::vector<UnsupportedBody<dim>>
+  StageLoads<dim>::unsupported_bodies(const Model<dim> &model,
+                                      const StageParameters &stage,
+                                      const State<dim> &state) const
+  {
+    constexpr unsigned int n_times = 32;
+    const double duration
+        = stage.end == StageEnd::time ? stage.duration : stage.minimum_duration;
+    std::vector<TimePoint> times;
+    for (unsigned int i = 0; i <= n_times; ++i)
+    {
+      const double t = duration * i / n_times;
+      times.push_back({ t, state.stage_start + t });
+    }
+    return find_unsupported_bodies(model, constraints, nodal, times, state);
+  }
+
+  template struct StageLoads<2>;
+  template struct StageLoads<3>;
+} // namespace quoin

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/block_problem/load_record.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+using namespace quoin;
+
+TEST(LoadRecord, KeepsTheFactorOfTheLargestMagnitude)
+{
+  LoadRecord record;
+  record.add_factor(0.3, 1e-3, 1.);
+  record.add_factor(-0.5, 2e-3, 2.);
+  record.add_factor(0.4, 3e-3, 3.);
+  nlohmann::ordered_json stage;
+  record.summarise(stage);
+  EXPECT_EQ(stage["largest load factor"]["factor"], -0.5);
+  EXPECT_EQ(stage["largest load factor"]["controlled displacement [m]"], 2e-3);
+  EXPECT_EQ(stage["largest load factor"]["time [s]"], 2.);
+}
+
+TEST(LoadRecord, WarnsOfAMoreThanTwentiethThatSupportsDoNotTake)
+{
+  // A wall that bears 183 kN is pushed by up to the second force.
+  for (const double most : { 190e3, 206e3 })
+    for (const double sign : { 1., -1. })
+    {
+      LoadRecord record;
+      for (unsigned int i = 0; i <= 100; ++i)
+      {
+        const double force = most * 0.01 * i;
+        record.add_forces({ { sign * force, -5e5, 0. },
+                            { -sign * std::min(force, 183e3), 4e5, 0. },
+                            { force, 5e5, 0. } },
+                          0.01 * i);
+      }
+      nlohmann::ordered_json stage;
+      record.summarise(stage);
+      EXPECT_EQ(record.warning().empty(), most < 200e3);
+      EXPECT_EQ(stage.empty(), most < 200e3);
+      if (most < 200e3)
+        continue;
+      const auto &x = stage["supports do not take the loads"]["x"];
+      EXPECT_EQ(x["applied [N]"], sign * most);
+      EXPECT_EQ(x["supports [N]"], -sign * 183e3);
+      EXPECT_EQ(x["time [s]"], 1.);
+      // The weight is constant: what rises to it is no loading.
+      EXPECT_EQ(stage["supports do not take the loads"].size(), 1U);
+    }
+}
+
+TEST(LoadRecord, VibrationAboutABalanceIsNoLackOfSupport)
+{
+  LoadRecord record;
+  for (unsigned int i = 0; i <= 400; ++i)
+  {
+    const double t = 0.01 * i, force = std::min(1., t);
+    record.add_forces({ { 0., -force, 0. },
+                        { 0., force * (1. + 0.3 * std::sin(20. * t)), 0. },
+                        { 0., force, 0. } },
+                      t);
+  }
+  EXPECT_TRUE(record.warning().empty());
+}
+
+TEST(LoadRecord, VibrationHidesNoLackOfSupport)
+{
+  // Supports that take 93 % or 97 % of the load on average, and for moments
+  // all of it; 5000 rows are more than are kept.
+  for (const double share : { 0.93, 0.97 })
+  {
+    LoadRecord record;
+    for (unsigned int i = 0; i < 5000; ++i)
+    {
+      const double t = 1e-3 * i, force = std::min(1., t);
+      record.add_forces(
+          { { force, 0., 0. },
+            { -force * (share + 0.1 * std::sin(100. * t)), 0., 0. },
+            { force, 0., 0. } },
+          t);
+    }
+    EXPECT_EQ(record.warning().empty(), share > 0.95);
+    nlohmann::ordered_json stage;
+    record.summarise(stage);
+    if (share > 0.95)
+      continue;
+    const auto &x = stage["supports do not take the loads"]["x"];
+    EXPECT_NEAR(x["applied [N]"], 1., 1e-12);
+    // A window of 0.5 s has eight periods, but for a part of one.
+    EXPECT_NEAR(x["supports [N]"], -share, 0.1 * 2. / (100. * 0.5));
+  }
+}
+
+TEST(LoadRecord, LoadsThatBalanceEachOtherNeedNoSupport)
+{
+  // Pressure on both sides of a hole, whose rounding nothing takes; a wall of
+  // which only one is pressed.
+  for (const double net : { 1e-3, 0.2 })
+  {
+    LoadRecord record;
+    for (unsigned int i = 0; i <= 10; ++i)
+    {
+      const double force = 1e5 * i;
+      record.add_forces(
+          { { net * force, 0., 0. }, { 0., 0., 0. }, { force, 0., 0. } },
+          0.1 * i);
+    }
+    EXPECT_EQ(record.warning().empty(), net < 0.01);
+  }
+}
