@@ -18,14 +18,6 @@ namespace quoin
     /** Factor of its coefficient in one step [-]. */
     constexpr double adaptive_change = 1.005;
 
-    template <int dim>
-    double norm(const dealii::Tensor<1, dim> &f)
-    {
-      double square = 0.;
-      for (const double component : f.v)
-        square += component * component;
-      return std::sqrt(square);
-    }
 
   } // namespace
 

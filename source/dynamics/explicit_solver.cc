@@ -74,8 +74,7 @@ namespace quoin
           rigid_stage, state.template get<RigidBlockStates>(),
           state.template get<RigidBlockStates>(), 1.);
       for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
-        for (const double v : state.velocity[i].v)
-          energy += 0.5 * node_mass[i] * v * v;
+        energy += 0.5 * node_mass[i] * state.velocity[i].norm_square();
       energy += quoin::kinetic_energy(water.masses(), state.velocity,
                                       state.velocity, 1.);
       if constexpr (dim == 2)

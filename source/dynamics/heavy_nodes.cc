@@ -9,16 +9,13 @@ namespace quoin
 {
   namespace
   {
-    template <int dim>
-    using Matrix = std::array<std::array<double, dim>, dim>;
-
     /** Inverse of the rows and columns of @p matrix, positive definite, that
         are @p free; 0 elsewhere. */
     template <int dim>
-    Matrix<dim> inverse_of_free(Matrix<dim> matrix,
+    dealii::Tensor<2, dim> inverse_of_free(dealii::Tensor<2, dim> matrix,
                                 const std::array<bool, dim> &free)
     {
-      Matrix<dim> inverse{};
+      dealii::Tensor<2, dim> inverse;
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
         {
@@ -73,7 +70,7 @@ namespace quoin
       CapturedNode<dim> &moving = captured[node.captured];
       moving.has_added_mass     = true;
       node.mass                 = each.mass;
-      Matrix<dim> all           = each.mass;
+      dealii::Tensor<2, dim> all           = each.mass;
       std::array<bool, dim> free;
       for (unsigned int d = 0; d < dim; ++d)
       {
@@ -124,11 +121,8 @@ namespace quoin
           state.energy.damping -= 0.5 * context.dt_before * drag * v0[d];
           state.pending.damping -= 0.5 * context.dt * drag * v1[d];
         }
-      for (unsigned int d = 0; d < dim; ++d)
-        each.acceleration[d] = (v1[d] - v0[d]) / h;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-          node.force[d] -= each.mass[d][e] * each.acceleration[e];
+      each.acceleration = (v1 - v0) / h;
+      node.force -= each.mass * each.acceleration;
     }
   }
 
@@ -136,17 +130,13 @@ namespace quoin
   dealii::Tensor<1, dim>
   HeavyNodes<dim>::inertia_force(const NodeMass<dim> &mass) const
   {
-    dealii::Tensor<1, dim> force;
     const auto found
         = std::lower_bound(heavy.begin(), heavy.end(), mass.node,
                            [](const HeavyNode &each, const unsigned int node)
                            { return each.node < node; });
     if (found == heavy.end() || found->node != mass.node)
-      return force;
-    for (unsigned int d = 0; d < dim; ++d)
-      for (unsigned int e = 0; e < dim; ++e)
-        force[d] -= mass.mass[d][e] * found->acceleration[e];
-    return force;
+      return {};
+    return -(mass.mass * found->acceleration);
   }
 
   template class HeavyNodes<2>;

@@ -34,9 +34,9 @@ namespace quoin
     struct HeavyNode
     {
       unsigned int node, captured; /**< local node, its position there */
-      std::array<std::array<double, dim>, dim> mass; /**< added mass [kg] */
+      dealii::Tensor<2, dim> mass; /**< added mass [kg] */
       /** Inverse of all mass of the free components, 0 elsewhere [1/kg]. */
-      std::array<std::array<double, dim>, dim> inverse;
+      dealii::Tensor<2, dim> inverse;
       dealii::Tensor<1, dim> acceleration; /**< in the last step [m/s^2] */
     };
     std::vector<HeavyNode> heavy; /**< ascending nodes */
