@@ -175,9 +175,9 @@ namespace quoin
     {
       if (!all_beams)
         return;
-      const Beams::Work work
-          = all_beams->advance(context, stage.damping != DampingType::none,
-                               stage.damping == DampingType::adaptive, state);
+      const BeamMotion::Work work
+          = beam_motion->advance(context, stage.damping != DampingType::none,
+                                 stage.damping == DampingType::adaptive, state);
       sums.damping += work.damping;
       sums.unbalanced += work.unbalanced;
       sums.applied += work.applied;
@@ -229,7 +229,7 @@ namespace quoin
                 state.template get<RigidBlockStates>(), share);
       if constexpr (dim == 2)
         if (all_beams)
-          stored_before.kinetic += all_beams->kinetic_energy(state, share);
+          stored_before.kinetic += beam_motion->kinetic_energy(state, share);
       this->find_energies(state, stored_before);
     }
     if (context.dt_before != context.dt)
@@ -242,7 +242,7 @@ namespace quoin
       check_time_step(state);
       if constexpr (dim == 2)
         if (all_beams)
-          all_beams->check_finite(state);
+          beam_motion->check_finite(state);
     }
     time_shares.lap(energy_phase);
   }
@@ -267,7 +267,7 @@ namespace quoin
               state.template get<RigidBlockStates>());
     if constexpr (dim == 2)
       if (all_beams)
-        change += all_beams->squared_change(state);
+        change += beam_motion->squared_change(state);
     state.pending.external += factor * change;
   }
 

@@ -32,7 +32,11 @@ namespace quoin
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
     if constexpr (dim == 2)
       if (all_beams)
+      {
+        if (!beam_motion)
+          beam_motion = std::make_unique<BeamMotion>(*all_beams, model.nodes());
         all_beams->begin_stage(stage.name, state);
+      }
     const auto kinetic = [&]()
     {
       double energy = rigid.kinetic_energy(
@@ -45,7 +49,7 @@ namespace quoin
                                       state.velocity, 1.);
       if constexpr (dim == 2)
         if (all_beams)
-          energy += all_beams->kinetic_energy(state);
+          energy += beam_motion->kinetic_energy(state);
       return energy;
     };
 
@@ -71,7 +75,7 @@ namespace quoin
       BeamMasses beams;
       if constexpr (dim == 2)
         if (all_beams)
-          beams = all_beams->masses(state);
+          beams = beam_motion->masses(state);
       added = find_added_mass(model, mass, rigid_stage.mass_factor, beams,
                               stage.scaled_time_step);
     }
@@ -184,10 +188,10 @@ namespace quoin
   {
     if (!all_beams)
       return 0.;
-    all_beams->find_masses(stage.scaled_time_step, state);
-    double eigenvalue                 = all_beams->largest_eigenvalue(state);
+    beam_motion->find_masses(stage.scaled_time_step, state);
+    double eigenvalue                 = beam_motion->largest_eigenvalue(state);
     const double dt                   = stage.scaled_time_step;
-    const std::vector<double> springs = all_beams->interface_bound(state);
+    const std::vector<double> springs = beam_motion->interface_bound(state);
     for (unsigned int i = 0; i < springs.size(); ++i)
     {
       if (springs[i] == 0.)
