@@ -9,6 +9,7 @@
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/block_problem/block_problem.h>
 #include <quoin/block_problem/block_costs.h>
+#include <quoin/structures/beam_fields.h>
 #include <quoin/advice/model_summary.h>
 #include <quoin/operators/archive.h>
 
@@ -120,7 +121,8 @@ namespace quoin
                       "beyond the blocks was made symmetric; it differed by ",
                       far->asymmetry(), " of its largest entry");
     if (const Beams *beams = system.solver->loads().beams.get())
-      run.log.messages(beams->text());
+      for (const auto &[line, interface] : beams->all())
+        run.log.message(beam_text(line));
     if (run.options.check)
       for (const auto &lines :
            { material_lines(parameters, *system.nodes,

@@ -67,7 +67,12 @@ namespace quoin
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
     if constexpr (dim == 2)
       if (all.beams)
+      {
+        if (!beam_motion)
+          beam_motion
+              = std::make_unique<BeamMotion>(*all.beams, model.nodes());
         all.beams->begin_stage(stage.name, state);
+      }
     const auto kinetic = [&]()
     {
       double energy = rigid.kinetic_energy(
@@ -79,7 +84,7 @@ namespace quoin
                                       state.velocity, 1.);
       if constexpr (dim == 2)
         if (all.beams)
-          energy += all.beams->kinetic_energy(state);
+          energy += beam_motion->kinetic_energy(state);
       return energy;
     };
 
@@ -389,9 +394,9 @@ namespace quoin
     {
       if (!all.beams)
         return;
-      const Beams::Work work
-          = all.beams->advance(context, stage.damping != DampingType::none,
-                               stage.damping == DampingType::adaptive, state);
+      const BeamMotion::Work work
+          = beam_motion->advance(context, stage.damping != DampingType::none,
+                                 stage.damping == DampingType::adaptive, state);
       sums.damping += work.damping;
       sums.unbalanced += work.unbalanced;
       sums.applied += work.applied;
@@ -444,7 +449,7 @@ namespace quoin
                 state.template get<RigidBlockStates>(), share);
       if constexpr (dim == 2)
         if (all.beams)
-          stored_before.kinetic += all.beams->kinetic_energy(state, share);
+          stored_before.kinetic += beam_motion->kinetic_energy(state, share);
       this->find_energies(state, stored_before);
     }
     if (context.dt_before != context.dt)
@@ -458,7 +463,7 @@ namespace quoin
                       time_step);
       if constexpr (dim == 2)
         if (all.beams)
-          all.beams->check_finite(state);
+          beam_motion->check_finite(state);
     }
     time_shares.lap(energy_phase);
   }
@@ -483,7 +488,7 @@ namespace quoin
               state.template get<RigidBlockStates>());
     if constexpr (dim == 2)
       if (all.beams)
-        change += all.beams->squared_change(state);
+        change += beam_motion->squared_change(state);
     state.pending.external += factor * change;
   }
 

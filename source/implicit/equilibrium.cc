@@ -154,22 +154,23 @@ namespace quoin
   void Equilibrium::add_beam_entries(
       dealii::TrilinosWrappers::SparsityPattern &entries)
   {
-    std::vector<Index> dofs(2 * beams->n_points(), 0); // one more; 0: held
-    for (unsigned int p = 0; p < beams->n_points(); ++p)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (const unsigned int node = beams->node_of_point(p);
-            node != NodeMap<2>::none && dof_map.is_free(node, d))
-          dofs[2 * p + d] = 1 + dof_map.dof(node, d);
+    std::vector<Index> dofs; // one more; 0: held
+    for (const auto &[line, interface] : beams->all())
+      for (const InterfacePoint &point : interface.points)
+        for (unsigned int d = 0; d < dim; ++d)
+          dofs.push_back(point.node != NodeMap<2>::none
+                                 && dof_map.is_free(point.node, d)
+                             ? 1 + dof_map.dof(point.node, d)
+                             : 0);
     dealii::Utilities::MPI::sum(dofs, communicator, dofs);
     for (const Index dof : dofs)
       beam_dofs.push_back(dof - 1); // numbers::invalid_dof_index of 0
-    for (unsigned int b = 0; b < beams->n_beams(); ++b)
+    for (const auto &[line, interface] : beams->all())
     {
       std::vector<Index> columns;
-      for (unsigned int k = 2 * beams->first_point(b);
-           k < 2 * beams->last_point(b); ++k)
-        if (dofs[k] > 0)
-          columns.push_back(beam_dofs[k]);
+      for (unsigned int k = 0; k < 2 * interface.points.size(); ++k)
+        if (dofs[2 * interface.first + k] > 0)
+          columns.push_back(beam_dofs[2 * interface.first + k]);
       std::sort(columns.begin(), columns.end());
       for (const Index row : columns)
         if (dof_map.owned().is_element(row))
@@ -181,7 +182,7 @@ namespace quoin
                               const Configuration &configuration,
                               Balance &balance, const bool slopes)
   {
-    Beams::Condensed stiffness;
+    std::vector<Eigen::MatrixXd> stiffness;
     balance.beams_stand = beams->settle(
         { configuration.load_time, stage_start + configuration.load_time },
         committed, balance.state, applied_force.data(),
@@ -191,7 +192,7 @@ namespace quoin
     for (unsigned int b = 0; b < stiffness.size(); ++b)
       for (Eigen::Index i = 0; i < stiffness[b].rows(); ++i)
       {
-        const unsigned int first = 2 * beams->first_point(b);
+        const unsigned int first = 2 * beams->all()[b].interface.first;
         const Index row          = beam_dofs[first + i];
         if (row == dealii::numbers::invalid_dof_index
             || !dof_map.owned().is_element(row))

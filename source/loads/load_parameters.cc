@@ -5,16 +5,16 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/base/unread_parameters.h>
+#include <quoin/loads/load_components.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/load_parameters.h>
+#include <quoin/loads/traction_entries.h>
 
 #include <boost/algorithm/string/case_conv.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <sstream>
 
 namespace quoin
 {
@@ -64,212 +64,6 @@ namespace quoin
       default:
         return {};
       }
-    }
-
-    TimeFunction time_function(const ParameterSection &section,
-                               const std::string &name, const std::string &text)
-    {
-      if (SpaceTimeFunction::names_place(text))
-        section.fail(name,
-                     "differs from place to place, as only tractions and "
-                     "prescribed motions may. Give a function of t and T"
-                         + std::string(section.text("Type") == "gravity"
-                                           ? ", and its factor by place as "
-                                             "'Distribution'."
-                                           : "."));
-      return section.made(name, [&]()
-                          { return TimeFunction(text, section.folder()); });
-    }
-
-    /** A component from @p text, by place if the load may differ there. */
-    LoadComponent made_component(const ParameterSection &section,
-                                 const std::string &name,
-                                 const LoadQuantity quantity,
-                                 const std::string &text)
-    {
-      const std::string type = section.text("Type");
-      if ((type != "traction" && type != "prescribed motion")
-          || !SpaceTimeFunction::names_place(text))
-        return { quantity, time_function(section, name, text) };
-      // In two dimensions z is 0.
-      const auto function = section.made(
-          name,
-          [&]() { return SpaceTimeFunction(text, section.folder(), 3, true); });
-      return { quantity, {}, std::make_shared<LoadField>(function) };
-    }
-
-    const std::string water_word = "water", uplift_word = "uplift";
-
-    /** The pressure of "water LEVEL". */
-    /** The level of water through the points @p text, "x, y; x, y; ...", as an
-        expression of x, constant beyond the first and the last of them. */
-    std::string level_through(const ParameterSection &section,
-                              const std::string &name, const std::string &text)
-    {
-      const auto refuse = [&]()
-      {
-        section.fail(name, "needs two points or more, x and y [m], with "
-                           "ascending x: 'water through 0, 12; 30, 10; 50, "
-                           "3'.");
-      };
-      std::vector<std::array<double, 2>> points;
-      std::istringstream parts(text);
-      for (std::string part; std::getline(parts, part, ';');)
-      {
-        std::replace(part.begin(), part.end(), ',', ' ');
-        std::istringstream words(part);
-        std::array<double, 2> point;
-        std::string rest;
-        if (!(words >> point[0] >> point[1]) || words >> rest
-            || (!points.empty() && !(point[0] > points.back()[0])))
-          refuse();
-        points.push_back(point);
-      }
-      if (points.size() < 2)
-        refuse();
-      // The slope changes at each point.
-      std::ostringstream level;
-      level.precision(17);
-      level << points[0][1];
-      double before = 0.;
-      for (std::size_t i = 0; i < points.size(); ++i)
-      {
-        const double after = i + 1 < points.size()
-                                 ? (points[i + 1][1] - points[i][1])
-                                       / (points[i + 1][0] - points[i][0])
-                                 : 0.;
-        level << " + (" << after - before << ") * max(0, x - (" << points[i][0]
-              << "))";
-        before = after;
-      }
-      return level.str();
-    }
-
-    LoadComponent water_pressure(const ParameterSection &section,
-                                 const std::string &name)
-    {
-      const std::string text = section.text(name).substr(water_word.size());
-      if (text.empty())
-        section.fail(name, "needs the height up to which the water stands, a "
-                           "function of time [m]: 'water LEVEL', such as "
-                           "'water 12'.");
-      const std::string through = " through ";
-      if (text.rfind(through, 0) == 0)
-        return made_component(
-            section, name, LoadQuantity::force,
-            "9810 * max(0, "
-                + level_through(section, name, text.substr(through.size()))
-                + " - y)");
-      const TimeFunction level = time_function(section, name, text);
-      return { LoadQuantity::force, level, std::make_shared<LoadField>(level) };
-    }
-
-    /** Refuses a record of the PEER database, whose name says what it is, as
-        the quantity that is once (velocity: 1) derived by time. */
-    void refuse_other_derivative(const ParameterSection &section,
-                                 const std::string &name,
-                                 const std::string &text, const int derivative)
-    {
-      constexpr std::array<const char *, 3> kinds
-          = { "displacement", "velocity", "acceleration" };
-      std::istringstream words(text);
-      std::string word, file;
-      words >> word >> file;
-      const std::string end
-          = word == "record" ? boost::algorithm::to_lower_copy(
-                std::filesystem::path(file).extension().string())
-                             : "";
-      const int of_file = end == ".dt2"   ? 0
-                          : end == ".vt2" ? 1
-                          : end == ".at2" ? 2
-                                          : -1;
-      int integrated    = 0;
-      while (words >> word)
-        if (word == "integrated" && words >> word)
-          integrated = word == "once" ? 1 : word == "twice" ? 2 : 0;
-      if (of_file < 0 || of_file - integrated == derivative)
-        return;
-      const int missing = of_file - derivative;
-      section.fail(name, std::string("must be of ") + kinds[derivative]
-                             + ", but the file is of " + kinds[of_file] + ": "
-                             + (missing == 1   ? "take 'integrated once'."
-                                : missing == 2 ? "take 'integrated twice'."
-                                : missing == 0 ? "leave out 'integrated'."
-                                               : "take another file."));
-    }
-
-    int derivative_of(const LoadQuantity quantity)
-    {
-      return quantity == LoadQuantity::displacement ? 0
-             : quantity == LoadQuantity::velocity   ? 1
-                                                    : 2;
-    }
-
-    /** Words before a function of time and the quantities they name. */
-    using Words = std::vector<std::pair<std::string, LoadQuantity>>;
-
-    const Words platen_words = { { "velocity", LoadQuantity::velocity },
-                                 { "displacement", LoadQuantity::displacement },
-                                 { "force", LoadQuantity::force } };
-    const Words rotation_words
-        = { { "velocity", LoadQuantity::velocity },
-            { "displacement", LoadQuantity::displacement },
-            { "moment", LoadQuantity::force } };
-
-    /** "free", or one of @p words and a function of time. */
-    LoadComponent platen_component(const ParameterSection &section,
-                                   const std::string &name, const Words &words)
-    {
-      const std::string text = section.text(name);
-      if (text == "free")
-        return {};
-      std::string known = "'free'";
-      for (const auto &[word, quantity] : words)
-      {
-        if (text.rfind(word + " ", 0) == 0)
-        {
-          const std::string function = text.substr(word.size());
-          if (quantity != LoadQuantity::force)
-            refuse_other_derivative(section, name, function,
-                                    derivative_of(quantity));
-          return made_component(section, name, quantity, function);
-        }
-        known += " or begin with '" + word + "'";
-      }
-      section.fail(name, "must be " + known + ".");
-    }
-
-    /**
-     * "free", or a function of time that stands for @p quantity. A prescribed
-     * motion may have 'velocity' or 'displacement' before it; other loads take
-     * no such word.
-     */
-    LoadComponent component(const ParameterSection &section,
-                            const std::string &name,
-                            const LoadQuantity quantity)
-    {
-      const std::string text = section.text(name);
-      if (text == "free")
-        return {};
-      const std::string type = section.text("Type");
-      for (const std::string word :
-           { "velocity", "displacement", "force", "moment" })
-        if (text.rfind(word + " ", 0) == 0)
-        {
-          if (type == "prescribed motion"
-              && (word == "velocity" || word == "displacement"))
-            return platen_component(section, name, platen_words);
-          section.fail(name, "is a " + word + ", which a load of type '" + type
-                                 + "' does not take: give a plain function of "
-                                   "time"
-                                 + (type == "prescribed motion"
-                                        ? ", or use the type 'traction' or "
-                                          "'platen'."
-                                        : "."));
-        }
-      if (quantity != LoadQuantity::force || type == "gravity")
-        refuse_other_derivative(section, name, text, derivative_of(quantity));
-      return made_component(section, name, quantity, text);
     }
 
     void refuse_unread_parameters(const ParameterSection &section)
@@ -503,194 +297,6 @@ namespace quoin
       return factor;
     }
 
-    void read_shape(const ParameterSection &section, MovingShape shape,
-                    LoadParameters &load)
-    {
-      const std::string centres = section.text("Moving centre");
-      if (shape.kind == MovingShape::Kind::none)
-      {
-        if (!centres.empty() || shape.width != 0.)
-          section.fail(centres.empty() ? "Moving width" : "Moving centre",
-                       "has no effect with 'Moving shape = none'. Give the "
-                       "shape of the load that moves.");
-        return;
-      }
-      if (centres.empty())
-        section.fail("Moving centre",
-                     "must be the place of the load as a function of time, "
-                     "such as 2 + 10*t, or those of several with semicolons "
-                     "between them [m].");
-      if (shape.width == 0.)
-        section.fail("Moving width", "must be positive: give the length over "
-                                     "which the load is spread [m].");
-      for (const std::string &text :
-           dealii::Utilities::split_string_list(centres, ';'))
-        shape.centres.push_back(time_function(section, "Moving centre", text));
-      load.shape = std::make_shared<MovingShape>(shape);
-    }
-
-    void enter_shape(ParameterEntries &entries, LoadParameters &load)
-    {
-      using Kind = MovingShape::Kind;
-      MovingShape shape;
-      entries.choice("Moving shape", shape.kind,
-                     { { "none", Kind::none },
-                       { "uniform", Kind::uniform },
-                       { "triangular", Kind::triangular },
-                       { "cosine", Kind::cosine } },
-                     "Shape of a moving traction: a factor with the mean 1 "
-                     "over its width and 0 outside, so that the force is "
-                     "traction times width times thickness for every shape.");
-      std::string centres;
-      entries.text("Moving centre", centres,
-                   "Coordinate of the centre of a moving traction, a function "
-                   "of time as 'Horizontal'; for several axles, functions with "
-                   "semicolons between them [m]");
-      entries.nonnegative("Moving width", shape.width,
-                          "Width of a moving traction along its axis [m]");
-      entries.choice("Moving axis", shape.axis,
-                     { { "x", 0U }, { "y", 1U }, { "z", 2U } },
-                     "Axis along which a traction moves.");
-      if (const ParameterSection *section = entries.read_section())
-        read_shape(*section, shape, load);
-    }
-
-    /** Makes the pressure of "uplift" from what is given of it beside. */
-    void enter_uplift(ParameterEntries &entries, LoadParameters &load)
-    {
-      UpliftDiagram uplift;
-      const auto level
-          = [&](const ParameterSection &section, const std::string &name)
-      {
-        return section.text(name).empty()
-                   ? TimeFunction()
-                   : time_function(section, name, section.text(name));
-      };
-      const auto point
-          = [&](const ParameterSection &section, const std::string &name)
-      {
-        if (section.text(name).empty())
-          return dealii::Point<2>();
-        const auto row = section.numbers<2>(name);
-        return dealii::Point<2>(row[0], row[1]);
-      };
-      entries.other("Headwater", "",
-                    "With 'Pressure = uplift' level of the water at the heel, "
-                    "a function of time [m]",
-                    [&](const ParameterSection &section)
-                    { uplift.headwater = level(section, "Headwater"); });
-      entries.other("Tailwater", "",
-                    "Level of the water at the toe, a function of time; it "
-                    "may be that of the joint there [m]",
-                    [&](const ParameterSection &section)
-                    { uplift.tailwater = level(section, "Tailwater"); });
-      entries.other("Heel", "",
-                    "Point x, y where the joint begins with the headwater [m]",
-                    [&](const ParameterSection &section)
-                    { uplift.heel = point(section, "Heel"); });
-      entries.other("Toe", "",
-                    "Point x, y where it ends with the tailwater [m]",
-                    [&](const ParameterSection &section)
-                    { uplift.toe = point(section, "Toe"); });
-      entries.nonnegative("Drain distance", uplift.drain,
-                          "Distance of a line of drains from the heel; 0: "
-                          "there is none [m]");
-      entries.within("Drain efficiency", uplift.efficiency, 0., 1.,
-                     "Share by which the drains lower the level there, down "
-                     "to 'Drain level' with 1 [-]");
-      entries.other("Drain level", "tailwater",
-                    "Height at which the drains end, such as that of a "
-                    "gallery; tailwater: that [m]",
-                    [&](const ParameterSection &section)
-                    {
-                      if (section.text("Drain level") != "tailwater")
-                        uplift.drain_level = section.number("Drain level");
-                    });
-      entries.choice("In cracks", uplift.enters_cracks,
-                     { { "given", false }, { "full head", true } },
-                     "Uplift where the joint opens from the heel on. given: as "
-                     "where it is closed; full head: the headwater, from the "
-                     "end of the crack on linear to the toe, or to the drains "
-                     "if they are beyond it.");
-      const ParameterSection *section = entries.read_section();
-      if (!section)
-        return;
-      if (section->text("Pressure") != uplift_word)
-      {
-        for (const std::string name :
-             { "Headwater", "Tailwater", "Heel", "Toe", "Drain distance",
-               "Drain efficiency", "Drain level", "In cracks" })
-          if (const std::string &text = section->text(name);
-              !(text.empty() || text == "0" || text == "tailwater"
-                || text == "given"))
-            section->fail(name, "goes with 'Pressure = uplift' alone. Remove "
-                                "it, or give that pressure.");
-        return;
-      }
-      for (const std::string name : { "Headwater", "Tailwater", "Heel", "Toe" })
-        if (section->text(name).empty())
-          section->fail(name, "is missing: 'Pressure = uplift' needs "
-                              "'Headwater' and 'Tailwater', levels, and 'Heel' "
-                              "and 'Toe', points x, y [m].");
-      if (uplift.length() == 0.)
-        section->fail("Toe", "is where 'Heel' is. Give the other end of the "
-                             "joint.");
-      if (uplift.drain >= uplift.length())
-        section->fail("Drain distance",
-                      text_of("must be less than the length ", uplift.length(),
-                              " m from 'Heel' to 'Toe'."));
-      if (uplift.drain == 0. && (uplift.efficiency > 0. || uplift.drain_level))
-        section->fail("Drain distance", "is 0, so that there are no drains. "
-                                        "Give their distance from the heel.");
-      if (uplift.drain > 0. && uplift.efficiency == 0.)
-        section->fail("Drain efficiency", "is 0, so that the drains do "
-                                          "nothing. Give it, or leave out "
-                                          "'Drain distance'.");
-      load.pressure.field = std::make_shared<LoadField>(
-          std::make_shared<const UpliftDiagram>(uplift));
-    }
-
-    void enter_added_mass(ParameterEntries &entries, LoadParameters &load)
-    {
-      entries.choice(
-          "Added mass", load.has_added_mass,
-          { { "none", false }, { "Westergaard", true } },
-          "Water that moves with the face in an earthquake, beside its "
-          "'Pressure = water LEVEL'. Westergaard: a mass of 7/8 rho sqrt(H z) "
-          "by the area at the depth z in a reservoir of the depth H, along the "
-          "normal, in explicit stages with 'End = time' that are not damped or "
-          "have Rayleigh damping.");
-      entries.other(
-          "Reservoir floor", "automatic",
-          "Height of the ground below the water, up from which the depth H of "
-          "the reservoir counts; automatic: the lowest point of 'Boundary' [m]",
-          [&](const ParameterSection &section)
-          {
-            if (section.text("Reservoir floor") != "automatic")
-              load.reservoir_floor = section.number("Reservoir floor");
-          });
-      const ParameterSection *section = entries.read_section();
-      if (!section)
-        return;
-      if (!load.has_added_mass)
-      {
-        if (load.reservoir_floor)
-          section->fail("Reservoir floor", "has no effect with 'Added mass = "
-                                           "none'. Remove it, or add the mass "
-                                           "of the water.");
-        return;
-      }
-      if (!load.pressure.field || !load.pressure.field->level())
-        section->fail("Added mass", "needs the level of the water: give "
-                                    "'Pressure = water LEVEL', such as "
-                                    "'water 12'.");
-      if (load.distribution || load.shape)
-        section->fail("Added mass",
-                      "does not go with 'Distribution' or 'Moving shape', "
-                      "which the mass of the water does not have. Remove "
-                      "these.");
-    }
-
     /** The functions of @p name with semicolons between them, by place. */
     std::vector<SpaceTimeFunction>
     stress_fields(const ParameterSection &section, const std::string &name)
@@ -800,8 +406,8 @@ namespace quoin
       const auto plain
           = [&](const ParameterSection &section, const std::string &name)
       {
-        return is_platen ? platen_component(section, name, platen_words)
-                         : component(section, name, quantity);
+        return is_platen ? platen_component(section, name)
+                         : load_component(section, name, quantity);
       };
       const std::string names[] = { "Horizontal", "Vertical" };
       for (unsigned int d = 0; d < 2; ++d)
@@ -830,8 +436,7 @@ namespace quoin
             "Rotation of a platen, anticlockwise: 'velocity' [deg/s], "
             "'displacement' [deg] or 'moment' [N m] and a function of time, or "
             "'free'.",
-            [](const ParameterSection &section, const std::string &name)
-            { return platen_component(section, name, rotation_words); });
+            rotation_component);
       if (entries.reads_if(is_force))
         enter_component(
             entries, "Pressure", "free", load.pressure,
@@ -843,15 +448,7 @@ namespace quoin
             "X, Y', that below a line through points with ascending x [m], "
             "level beyond its ends; or 'uplift', that in a joint below a dam "
             "from 'Headwater' to 'Tailwater' [Pa]",
-            [&](const ParameterSection &section, const std::string &name)
-            {
-              const std::string text = section.text(name);
-              if (text == uplift_word)
-                return LoadComponent{ LoadQuantity::force, {} };
-              return text.substr(0, text.find(' ')) == water_word
-                         ? water_pressure(section, name)
-                         : plain(section, name);
-            });
+            pressure_component);
       if (entries.reads_if(load.type == LoadType::gravity))
         entries.number_or(
             "automatic", -1., "Ramp duration", load.ramp_duration,
@@ -871,11 +468,7 @@ namespace quoin
             [&](const ParameterSection &from)
             { load.distribution = distribution(from); });
       if (entries.reads_if(load.type == LoadType::traction))
-      {
-        enter_shape(entries, load);
-        enter_uplift(entries, load);
-        enter_added_mass(entries, load);
-      }
+        enter_traction(entries, load);
       const ParameterSection *section = entries.read_section();
       if (section && is_platen
           && load.groups.empty() == load.boundaries.empty())
@@ -905,7 +498,8 @@ namespace quoin
               {
                 return section.text(name) == "0"
                            ? LoadComponent()
-                           : component(section, name, LoadQuantity::velocity);
+                           : load_component(section, name,
+                                            LoadQuantity::velocity);
               });
         entries.text(
             "Far field material", load.far_material,

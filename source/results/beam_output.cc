@@ -31,11 +31,11 @@ namespace quoin
         = [](std::vector<double> &to, const std::vector<double> &from)
     { to.insert(to.end(), from.begin(), from.end()); };
     // All ranks have all beams; one of them writes.
-    for (unsigned int b = 0; is_first_rank && b < beams.n_beams(); ++b)
+    for (unsigned int b = 0; is_first_rank && b < beams.all().size(); ++b)
     {
-      if (!beams.is_placed(b, state))
+      if (!state.get<BeamState>().placed[b])
         continue;
-      const BeamFields fields  = beams.fields(b, state);
+      const BeamFields fields  = beam_fields(beams.all()[b], state);
       const std::int32_t first = grid.points.size() / 2;
       const std::int32_t n     = fields.position.size();
       append(grid.points, flat(fields.position));

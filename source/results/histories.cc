@@ -1002,12 +1002,16 @@ namespace quoin
       const HistoryParameters &wanted = probes[i].parameters;
       if (wanted.quantity != HistoryQuantity::beam)
         continue;
-      const unsigned int beam = beams->find(wanted.beam);
-      if (beams->is_placed(beam, state))
-        row[1 + i] = beam_value(
-            beams->fields(beam, state),
-            beams->nearest_node(beam, { { wanted.point[0], wanted.point[1] } }),
-            wanted.component);
+      for (unsigned int b = 0; b < beams->all().size(); ++b)
+      {
+        const Beam &beam = beams->all()[b];
+        if (beam.line.given.name == wanted.beam
+            && state.get<BeamState>().placed[b])
+          row[1 + i] = beam_value(
+              beam_fields(beam, state),
+              nearest_node(beam.line, { wanted.point[0], wanted.point[1] }),
+              wanted.component);
+      }
     }
   }
 

@@ -6,7 +6,7 @@
 
 #include <quoin/blocks/rigid_blocks.h>
 #include <quoin/model/model.h>
-#include <quoin/structures/beams.h>
+#include <quoin/structures/beam_motion.h>
 
 #include <string>
 #include <vector>
@@ -42,7 +42,7 @@ namespace quoin
   /**
    * What it changes if the local nodes of @p model have the masses @p mass
    * [kg] and its rigid blocks the mass @p factors [-], so that the critical
-   * step is @p time_step [s]; @p beams: see Beams::masses(). Collective.
+   * step is @p time_step [s]; @p beams: see BeamMotion::masses(). Collective.
    */
   template <int dim>
   AddedMass find_added_mass(const Model<dim> &model,

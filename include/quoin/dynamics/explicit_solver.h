@@ -198,6 +198,7 @@ namespace quoin
     double time_step = 0.;
 
     RigidBlockStage rigid_stage;
+    std::unique_ptr<BeamMotion> beam_motion; /**< null: no beams */
 
     std::unique_ptr<const ModelBox> box; /**< null: no box */
     std::vector<StageParameters> all_stages;

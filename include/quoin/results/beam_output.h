@@ -6,6 +6,7 @@
 
 #include <quoin/operators/state.h>
 #include <quoin/output/field_series.h>
+#include <quoin/structures/beam_fields.h>
 #include <quoin/structures/beams.h>
 
 #include <string>

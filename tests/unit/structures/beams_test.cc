@@ -3,7 +3,8 @@
 
 #include "../mesh/test_nodes.h"
 
-#include <quoin/structures/beams.h>
+#include <quoin/structures/beam_fields.h>
+#include <quoin/structures/beam_motion.h>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -51,6 +52,7 @@ namespace
     std::vector<JointSetParameters> sets;
     State<2> state;
     std::unique_ptr<Beams> beams;
+    std::unique_ptr<BeamMotion> motion;
 
     explicit Model(const BeamParameters &beam,
                    const JointStrength &strength = { 1e30, 0., 1e30 })
@@ -71,7 +73,13 @@ namespace
                                       sets, 1., Thickness(1.));
       beams->prepare(state);
       beams->begin_stage("first", state);
-      beams->find_masses(0., state);
+      motion = std::make_unique<BeamMotion>(*beams, map);
+      motion->find_masses(0., state);
+    }
+
+    unsigned int node_of_point(const unsigned int p) const
+    {
+      return beams->all()[0].interface.points[p].node;
     }
 
     BeamState &now()
@@ -124,7 +132,7 @@ namespace
       for (unsigned int i = 0; i < n; ++i)
       {
         now().velocity[i / 2][i % 2] = 1.;
-        root[i] = 1. / std::sqrt(2. * beams->kinetic_energy(state));
+        root[i] = 1. / std::sqrt(2. * motion->kinetic_energy(state));
         now().velocity[i / 2][i % 2] = 0.;
       }
       for (unsigned int i = 0; i < 2; ++i) // a fixed start
@@ -155,7 +163,7 @@ TEST(Beams, ModesOfCantilever)
   EXPECT_NEAR(std::sqrt(all[3]), by * std::pow(4.6940911 / 3., 2),
               0.005 * by * std::pow(4.6940911 / 3., 2));
   // The bound of the stable step is not below the largest one.
-  EXPECT_GE(model.beams->largest_eigenvalue(model.state) * (1. + 1e-6),
+  EXPECT_GE(model.motion->largest_eigenvalue(model.state) * (1. + 1e-6),
             all[all.size() - 1]);
 }
 
@@ -180,7 +188,7 @@ TEST(Beams, ScaledStepAddsMass)
   beam.points         = { { 0., 2. }, { 1., 2. } };
   beam.n_segments     = 4;
   Model model(beam);
-  BeamMasses masses = model.beams->masses(model.state);
+  BeamMasses masses = model.motion->masses(model.state);
   ASSERT_EQ(masses.size(), 1u);
   double sum = 0.;
   for (const auto &[mass, scaled] : masses[0])
@@ -192,11 +200,11 @@ TEST(Beams, ScaledStepAddsMass)
 
   // Whatever the step is, it becomes a stable one.
   const double step = 1e-2;
-  model.beams->find_masses(step, model.state);
-  masses = model.beams->masses(model.state);
+  model.motion->find_masses(step, model.state);
+  masses = model.motion->masses(model.state);
   for (const auto &[mass, scaled] : masses[0])
     EXPECT_GT(scaled, mass);
-  EXPECT_LE(model.beams->largest_eigenvalue(model.state),
+  EXPECT_LE(model.motion->largest_eigenvalue(model.state),
             4. / (step * step) * (1. + 1e-12));
 }
 
@@ -238,7 +246,8 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
     Model model(beam, slips ? JointStrength{ 2e4, 0.5, 1e30 }
                             : JointStrength{ 1e30, 0., 1e30 });
     const State<2> start = model.state;
-    const auto settled   = [&](State<2> &now, Beams::Condensed *stiffness)
+    const auto settled
+        = [&](State<2> &now, std::vector<Eigen::MatrixXd> *stiffness)
     {
       AlignedArray<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
       EXPECT_TRUE(
@@ -247,7 +256,7 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
     };
     State<2> now      = start;
     now.nodes[1].u[0] = 2e-4;
-    Beams::Condensed stiffness;
+    std::vector<Eigen::MatrixXd> stiffness;
     State<2> moved = now;
     settled(moved, &stiffness);
     const auto &states = moved.get<BeamState>().interface.state;
@@ -259,13 +268,13 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
       {
         const double h = 1e-7;
         State<2> a = now, b = now;
-        a.nodes[model.beams->node_of_point(q)].u[e] += h;
-        b.nodes[model.beams->node_of_point(q)].u[e] -= h;
+        a.nodes[model.node_of_point(q)].u[e] += h;
+        b.nodes[model.node_of_point(q)].u[e] -= h;
         const auto above = settled(a, nullptr), below = settled(b, nullptr);
         for (unsigned int p = 0; p < 4; ++p)
           for (unsigned int d = 0; d < 2; ++d)
           {
-            const unsigned int node = model.beams->node_of_point(p);
+            const unsigned int node = model.node_of_point(p);
             EXPECT_NEAR(stiffness[0](2 * p + d, 2 * q + e),
                         -(above[node][d] - below[node][d]) / (2. * h), 1e4);
           }
@@ -282,7 +291,7 @@ TEST(Beams, HingeKeepsItsMoment)
   Model model(beam);
   model.now().nodes[1].u[1] = -0.01;
   const double stored       = model.energy();
-  const BeamFields fields   = model.beams->fields(0, model.state);
+  const BeamFields fields   = beam_fields(model.beams->all()[0], model.state);
   EXPECT_NEAR(fields.moment[1], 100., 1e-9);
   const double k = beam.modulus * beam.second_moment / 1.;
   EXPECT_NEAR(fields.plastic[1], 2. * std::atan(0.01) - 100. / k, 1e-12);
