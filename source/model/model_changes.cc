@@ -57,10 +57,7 @@ namespace quoin
     pack_blocks(construction);
     matched_joints.set_laws(now.joints);
     if (block_contacts)
-    {
-      block_contacts->set_laws(now.joints);
-      block_contacts->set_materials(now.material_of_group);
-    }
+      block_contacts->set_properties(now.joints, now.material_of_group);
     if (!node_map.table().is_quadratic)
       find_stable_step();
   }

@@ -7,6 +7,7 @@
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/interruption.h>
 #include <quoin/results/result_origin.h>
+#include <quoin/operators/stored_energy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -352,7 +353,7 @@ namespace quoin
                       + model.joints().stored_energy(base);
       if constexpr (dim == 2)
         if (const BlockContacts *contacts = system.solver->contacts())
-          energy += contacts->stored_energy(base);
+          energy += stored_energy(base, *contacts);
       AlignedArray<NodeVector<dim>> forces(base.nodes.size(),
                                            NodeVector<dim>());
       for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
