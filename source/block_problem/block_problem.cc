@@ -460,8 +460,8 @@ namespace quoin
   {
     const BlockContacts *contacts = system.model->contacts();
     const double sums[3]
-        = { contacts->n_touching(state.get<ContactState>()),
-            double(contacts->n_updates()), contacts->search_seconds() };
+        = { n_touching(contacts->near_pairs(), state.get<ContactState>()),
+            double(contacts->work().updates), contacts->work().search_seconds };
     std::array<double, 3> all;
     MPI_Allreduce(sums, all.data(), 3, MPI_DOUBLE, MPI_SUM, run.communicator);
     // Ranks search together: the mean of their times counts.

@@ -7,6 +7,7 @@
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/interruption.h>
 #include <quoin/results/result_origin.h>
+#include <quoin/operators/stored_energy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -364,9 +365,9 @@ namespace quoin
                       + model.joints().stored_energy(base);
       if constexpr (dim == 2)
         if (const BlockContacts *contacts = system.model->contacts())
-          energy += contacts->stored_energy(base);
+          energy += stored_energy(base, *contacts);
       AlignedArray<dealii::Tensor<1, dim>> forces(base.nodes.size(),
-                                                  dealii::Tensor<1, dim>());
+                                           dealii::Tensor<1, dim>());
       for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
         load->add_loads({ 0., base.time }, forces.data());
       model.nodes().exchange().add_to_owners(forces.data());

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// The contact operator: how pairs begin and end, and what is asked of them.
-// What happens in every step is in block_contacts_lanes.cc, what happens
-// between searches in block_contacts_search.cc.
+// Forces of contacts, for several pairs at once, and how contacts begin and
+// end, one by one. What happens between steps is in block_contacts_search.cc.
+
+#include <quoin/joint_elements/dashpot_tractions.h>
+#include <quoin/contact/block_contacts.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "contact_pairs.h"
+#include "contact_pack.h"
 #include "contact_points.h"
+#include "edge_lanes.h"
 
 namespace quoin
 {
@@ -19,64 +23,34 @@ namespace quoin
         having been seen apart. */
     constexpr double first_overlap = 1e-3;
 
-    AnchorLanes<1> anchor_of(const ContactPoint &point)
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /** By how much contacts without traction are open [m]; less than 0 where
+        one that begins overlaps already. */
+    template <int lanes>
+    QUOIN_INLINE typename Lanes<lanes>::Value
+    open_gap(const typename Lanes<lanes>::Value &sigma,
+             const typename Lanes<lanes>::Value &opening,
+             const typename Lanes<lanes>::Value &plastic_opening)
     {
-      return { point.slip_offset, point.anchor_lower, point.anchor_upper };
+      return ((sigma == 0.) & (opening < infinity))
+                 ? opening - plastic_opening
+                 : typename Lanes<lanes>::Value{};
     }
 
-    PairLanes<1> one_lane(const ContactPair &pair)
+    void make_marks(ContactState &contacts)
     {
-      return { pair.was_joint != 0, pair.shift, pair.shift_start,
-               anchor_of(pair.points[0]), pair.active != 0 };
+      // Lanes beyond the last pair are none that begins.
+      contacts.marks.assign((contacts.pairs.size() + MovingEdges::most_lanes)
+                                / MovingEdges::most_lanes
+                                * MovingEdges::most_lanes,
+                            PairMark::active);
+      for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
+        if (!contacts.pairs[i].active)
+          contacts.marks[i]
+              = contacts.pairs[i].was_open ? PairMark::open : PairMark::unseen;
     }
   } // namespace
-
-  bool BlockContacts::geometry(const ContactPair &pair, const unsigned int i,
-                               Geometry &result) const
-  {
-    const auto &[ea, eb] = pair_edges[i];
-    EdgeLanes<1> a, b;
-    load_edges(&ea, a);
-    load_edges(&eb, b);
-    return find_geometry<1>(one_lane(pair), &ea, a, &eb, b, result);
-  }
-
-  double BlockContacts::shift_left(const ContactPair &pair,
-                                   const unsigned int i,
-                                   const Geometry &g) const
-  {
-    EdgeLanes<1> a, b;
-    load_edges(&pair_edges[i][0], a);
-    load_edges(&pair_edges[i][1], b);
-    return PairFunctions<1>::shift_left(one_lane(pair), a, b, g.tangent);
-  }
-
-  double BlockContacts::slip(const ContactPoint &point, const unsigned int i,
-                             const double (&normal)[2]) const
-  {
-    EdgeLanes<1> a, b;
-    load_edges(&pair_edges[i][0], a);
-    load_edges(&pair_edges[i][1], b);
-    return PairFunctions<1>::slip(anchor_of(point), a, b, normal);
-  }
-
-  void BlockContacts::gather_velocities(const dealii::Tensor<1, 2> *velocity)
-  {
-    reach->update_ghosts(velocity, ghost_velocity.data());
-    dealii::Tensor<1, 2> *to = compact_velocity.data();
-    for (const unsigned int i : compact_own)
-      *to++ = velocity[i];
-    std::copy(ghost_velocity.begin(), ghost_velocity.end(), to);
-  }
-
-  void BlockContacts::scatter(AlignedArray<dealii::Tensor<1, 2>> &from,
-                              dealii::Tensor<1, 2> *to) const
-  {
-    for (unsigned int j = 0; j < compact_own.size(); ++j)
-      for (unsigned int d = 0; d < 2; ++d)
-        to[compact_own[j]][d] += from[j][d];
-    std::fill(from.begin(), from.end(), dealii::Tensor<1, 2>());
-  }
 
   double BlockContacts::release(ContactPair &pair) const
   {
@@ -94,7 +68,8 @@ namespace quoin
   }
 
   bool BlockContacts::begin_contact(ContactState &contacts,
-                                    const unsigned int i, const Geometry &g)
+                                    const unsigned int i,
+                                    const NearPairs::Geometry &g)
   {
     ContactPair &pair    = contacts.pairs[i];
     const double opening = std::min(g.opening[0], g.opening[1]);
@@ -104,17 +79,21 @@ namespace quoin
     const bool is_heir = find_parent(contacts, i, set, inherited, deepest);
     if (opening >= inherited.plastic_opening
         || opening <= std::min(0., inherited.plastic_opening)
-                          - pair_weights[i].depth)
+                          - near.weights()[i].depth)
       return false;
     // Edges that overlap from behind, as those of thin wedges which lie on
     // each other, were never apart, and their vertices lie outside.
-    const unsigned int deeper = g.opening[0] <= g.opening[1] ? 0 : 1;
+    const MovingEdges &moving  = near.moving_edges();
+    const auto &[lower, upper] = near.edges_of(i);
+    const unsigned int deeper  = g.opening[0] <= g.opening[1] ? 0 : 1;
     if (!pair.was_open
         && opening < deepest
                          - first_overlap
-                               * std::min(local_edges[pair_edges[i][0]].length,
-                                          local_edges[pair_edges[i][1]].length)
-        && !vertex_is_inside(i, g, deeper))
+                               * std::min(moving[lower].length,
+                                          moving[upper].length)
+        && (g.share[deeper] < 0.5
+                ? !moving.vertex_is_inside(lower, deeper, upper)
+                : !moving.vertex_is_inside(upper, 1 - deeper, lower)))
       return false;
 
     if (!is_heir)
@@ -135,34 +114,8 @@ namespace quoin
       point.area = is_heir ? 0. : g.area[k];
       // Such that the slip now is that of the other pair.
       point.slip_offset = 0.;
-      point.slip_offset = inherited.slip_offset - slip(point, i, g.normal[k]);
-    }
-    return true;
-  }
-
-  bool BlockContacts::vertex_is_inside(const unsigned int i, const Geometry &g,
-                                       const unsigned int k) const
-  {
-    const auto &[a, b]     = pair_edges[i];
-    const bool is_of_a     = g.share[k] < 0.5;
-    const Edge &touched    = local_edges[is_of_a ? b : a];
-    const EdgeLinks &links = edge_links[is_of_a ? b : a];
-    const dealii::Tensor<1, 2> &vertex
-        = position[is_of_a ? edge_links[a].nodes[k]
-                           : edge_links[b].nodes[1 - k]];
-    for (const unsigned int e : links.neighbours)
-    {
-      const Edge &next     = local_edges[e];
-      const bool is_before = e == links.neighbours[0];
-      const double turn    = next.tangent[0] * touched.tangent[1]
-                          - next.tangent[1] * touched.tangent[0];
-      // Beyond an inward corner the block goes on.
-      if ((is_before ? turn : -turn) <= 0.)
-        continue;
-      const double side = next.tangent[0] * (vertex[1] - next.y)
-                          - next.tangent[1] * (vertex[0] - next.x);
-      if (side < 0.)
-        return false;
+      point.slip_offset
+          = inherited.slip_offset - near.slip(point, i, g.normal[k]);
     }
     return true;
   }
@@ -176,21 +129,20 @@ namespace quoin
     // vertex of the other; the first of two, whatever their ranks.
     for (unsigned int side = 0; side < 2; ++side)
     {
-      const unsigned int shared = pair_edges[i][side];
-      const auto &beside = edge_links[pair_edges[i][1 - side]].neighbours;
-      for (unsigned int j = edge_pairs_begin[shared];
-           j < edge_pairs_begin[shared + 1]; ++j)
+      const unsigned int shared = near.edges_of(i)[side];
+      const auto &beside
+          = near.moving_edges().links(near.edges_of(i)[1 - side]).neighbours;
+      for (const unsigned int q : near.entries_of(shared))
       {
-        const unsigned int q      = edge_pairs[j];
-        const ContactPair &parent = pair_or_copy(contacts, q);
+        const ContactPair &parent = near.pair_or_copy(contacts, q);
         if (q == i || !parent.active)
           continue;
-        const unsigned int at    = pair_edges[q][0] == shared ? 1 : 0;
-        const unsigned int other = pair_edges[q][at];
+        const unsigned int at    = near.edges_of(q)[0] == shared ? 1 : 0;
+        const unsigned int other = near.edges_of(q)[at];
         if (other != beside[0] && other != beside[1])
           continue;
-        Geometry g;
-        if (!geometry(parent, q, g))
+        NearPairs::Geometry g;
+        if (!near.geometry(parent, q, g))
           continue;
         const double vertex = other == beside[1] ? 0. : 1.;
         const double *place = at == 0 ? g.lower : g.upper;
@@ -200,14 +152,15 @@ namespace quoin
         deepest               = std::min(g.opening[0], g.opening[1]);
         set                   = parent.set;
         inherited             = parent.points[k];
-        inherited.slip_offset = slip(inherited, q, g.normal[k]);
+        inherited.slip_offset = near.slip(inherited, q, g.normal[k]);
         return true;
       }
     }
     return false;
   }
 
-  double BlockContacts::stored_energy(const State<2> &state) const
+  void BlockContacts::add_stored_energy(const State<2> &state,
+                                        EnergyAccounts &energies) const
   {
     const ContactState &contacts = state.get<ContactState>();
     double energy                = 0.;
@@ -222,93 +175,450 @@ namespace quoin
         with_law(pair.set,
                  [&](const auto &law)
                  {
-                   energy += pair_weights[i].share * point.area
+                   energy += near.weights()[i].share * point.area
                              * law.stored_energy(read_point(law, point),
                                                  point.opening);
                  });
       }
     }
-    return energy;
+    energies.joint += energy;
   }
 
-  double BlockContacts::n_touching(const ContactState &contacts) const
+  template <int lanes>
+  void BlockContacts::begin_contacts(ContactState &contacts)
   {
-    double n = 0.;
-    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
-      for (const ContactPoint &point : contacts.pairs[i].points)
-        if (contacts.pairs[i].active && point.normal_traction < 0.)
-          n += pair_weights[i].share;
-    return n;
+    const MovingEdges &moving = near.moving_edges();
+    // Before any pair is brought to the present, so that heirs go on from the
+    // same past as those they follow, whatever the order of the pairs.
+    near.update_copies(contacts);
+    const unsigned int n_pairs = contacts.pairs.size();
+    active_pairs.resize(n_pairs + 1);
+    idle_pairs.resize(n_pairs + 1);
+    unsigned int n_active = 0, n_idle = 0;
+    for (unsigned int i = 0; i < n_pairs; i += lanes)
+    {
+      PairMark *marks   = &contacts.marks[i];
+      unsigned int idle = 0, overlap = 0;
+      for (int l = 0; l < lanes; ++l)
+        idle |= unsigned(marks[l] != PairMark::active) << l;
+      if (idle != 0)
+      {
+        std::uint32_t ea[lanes], eb[lanes];
+        for (int l = 0; l < lanes; ++l)
+        {
+          ea[l] = near.edges_of(i + l)[0];
+          eb[l] = near.edges_of(i + l)[1];
+        }
+        EdgeLanes<lanes> a, b;
+        moving.load(ea, a);
+        moving.load(eb, b);
+        overlap = idle
+                  & LaneFunctions<lanes>::set_lanes(
+                      PairFunctions<lanes>::may_overlap(a, b));
+      }
+      const unsigned int n = std::min<unsigned int>(lanes, n_pairs - i);
+      for (unsigned int l = 0; l < n; ++l)
+      {
+        active_pairs[n_active] = idle_pairs[n_idle] = i + l;
+        n_active += ~idle >> l & 1;
+        n_idle += overlap >> l & 1;
+        if (marks[l] == PairMark::open && (~overlap >> l & 1))
+        {
+          marks[l]                       = PairMark::unseen;
+          contacts.pairs[i + l].was_open = 0;
+        }
+      }
+    }
+    active_pairs.resize(n_active);
+    new_contacts.clear();
+    for (unsigned int j = 0; j < n_idle; j += lanes)
+      look_at_idle<lanes>(&idle_pairs[j],
+                          std::min<unsigned int>(lanes, n_idle - j), contacts);
+    for (const unsigned int i : new_contacts)
+    {
+      contacts.pairs[i].active = 1;
+      contacts.marks[i]        = PairMark::active;
+      active_pairs.push_back(i);
+    }
   }
 
-  bool BlockContacts::contact(const ContactState &contacts,
-                              const unsigned int i, Contact &result) const
+  template <int lanes>
+  void BlockContacts::look_at_idle(const unsigned int *idle,
+                                   const unsigned int n, ContactState &contacts)
   {
-    const ContactPair &pair = contacts.pairs[i];
-    const Edge &a           = local_edges[pair_edges[i][0]];
-    const Edge &b           = local_edges[pair_edges[i][1]];
-    Geometry g;
-    if (!pair.active || !geometry(pair, i, g))
-      return false;
-    result.set   = pair.set;
-    result.share = pair_weights[i].share;
+    const MovingEdges &moving = near.moving_edges();
+    using F                   = LaneFunctions<lanes>;
+    std::uint32_t ea[lanes], eb[lanes];
+    for (unsigned int l = 0; l < lanes; ++l)
+    {
+      const auto &pair = near.edges_of(idle[std::min(l, n - 1)]);
+      ea[l]            = pair[0];
+      eb[l]            = pair[1];
+    }
+    EdgeLanes<lanes> a, b;
+    moving.load(ea, a);
+    moving.load(eb, b);
+    // Areas do not count.
+    PairLanes<lanes> pairs{};
+    PairGeometry<lanes> g;
+    const unsigned int found
+        = F::set_lanes(moving.find_geometry(pairs, ea, a, eb, b, g));
+    if (found == 0)
+      g.opening[0] = g.opening[1] = typename F::Value{};
+    alignas(64) double opening[2][lanes];
     for (unsigned int k = 0; k < 2; ++k)
+      F::store(opening[k], g.opening[k]);
+
+    for (unsigned int l = 0; l < n; ++l)
     {
-      const double la = g.lower[k] * a.length, lb = g.upper[k] * b.length;
-      result.lower[k]
-          = dealii::Point<2>(a.x + la * a.tangent[0], a.y + la * a.tangent[1]);
-      result.upper[k]
-          = dealii::Point<2>(b.x + lb * b.tangent[0], b.y + lb * b.tangent[1]);
-      const ContactPoint &point = pair.points[k];
-      const double sigma        = point.area * point.normal_traction;
-      const double tau          = point.area * point.shear_traction;
-      const auto &[nx, ny]      = g.normal[k];
-      result.force[k]
-          = dealii::Point<2>(sigma * nx + tau * ny, sigma * ny - tau * nx);
-      const auto &[p, q]  = edges[pair.lower].points;
-      result.reference[k] = dealii::Point<2>(p[0] + g.lower[k] * (q[0] - p[0]),
-                                             p[1] + g.lower[k] * (q[1] - p[1]));
-      result.opening[k]   = g.opening[k];
-      result.slip[k]      = slip(pair.points[k], i, g.normal[k]);
+      const unsigned int i = idle[l];
+      ContactPair &pair    = contacts.pairs[i];
+      PairMark &mark       = contacts.marks[i];
+      const bool is_there  = found >> l & 1;
+      const bool is_open
+          = is_there && std::min(opening[0][l], opening[1][l]) >= 0.;
+      if (is_there ? is_open && mark != PairMark::open : mark == PairMark::open)
+      {
+        mark          = is_open ? PairMark::open : PairMark::unseen;
+        pair.was_open = is_open;
+      }
+      if (!is_there)
+        continue;
+      NearPairs::Geometry own;
+      if ((!is_open || dilates) && near.geometry(pair, i, own)
+          && begin_contact(contacts, i, own))
+        new_contacts.push_back(i);
+      else
+        for (unsigned int k = 0; k < 2; ++k)
+          pair.points[k].opening = opening[k][l];
     }
-    return true;
   }
 
-  bool BlockContacts::end_forces(const ContactState &contacts,
-                                 const unsigned int i, EndForces &result) const
+  template <int lanes>
+  void BlockContacts::add_forces_in_lanes(ContactState &contacts,
+                                          const double viscous_beta,
+                                          const bool damps, Losses &losses)
   {
-    const ContactPair &pair = contacts.pairs[i];
-    Geometry g;
-    if (!pair.active || !geometry(pair, i, g))
-      return false;
-    EdgeLanes<1> a, b;
-    load_edges(&pair_edges[i][0], a);
-    load_edges(&pair_edges[i][1], b);
-    TractionLanes<1> sum;
-    for (unsigned int k = 0; k < 2; ++k)
+    begin_contacts<lanes>(contacts);
+    const auto add
+        = [&](const unsigned int set, const std::vector<unsigned int> &active)
     {
-      const ContactPoint &point = pair.points[k];
-      PairFunctions<1>::add_tractions(a, b, g, k, anchor_of(point),
-                                      point.area * point.normal_traction,
-                                      point.area * point.shear_traction, sum);
-    }
-    const EndForceLanes<1> force = PairFunctions<1>::end_forces(a, b, sum);
-    for (unsigned int n = 0; n < 4; ++n)
+      std::visit(
+          [&](const auto &law)
+          {
+            add_forces_under<lanes>(law, active, contacts, viscous_beta, damps,
+                                    losses);
+          },
+          laws[set]);
+    };
+    if (laws.size() == 1)
     {
-      const EdgeLanes<1> &edge = n < 2 ? a : b;
-      const auto &f            = n < 2 ? force.a[n] : force.b[n - 2];
-      const double distance    = n % 2 == 0 ? 0. : edge.length;
-      result.place[n] = dealii::Point<2>(edge.x + distance * edge.tangent[0],
-                                         edge.y + distance * edge.tangent[1]);
-      result.force[n] = dealii::Point<2>(f[0], f[1]);
+      add(0, active_pairs);
+      return;
     }
-    result.share = pair_weights[i].share;
-    return true;
+    pairs_of_set.resize(laws.size());
+    for (std::vector<unsigned int> &list : pairs_of_set)
+      list.clear();
+    for (const unsigned int i : active_pairs)
+      pairs_of_set[contacts.pairs[i].set].push_back(i);
+    for (unsigned int set = 0; set < laws.size(); ++set)
+      add(set, pairs_of_set[set]);
   }
 
-  bool BlockContacts::is_own(const ContactState &contacts,
-                             const unsigned int pair) const
+  template <int lanes, typename Law>
+  void BlockContacts::add_forces_under(const Law &law,
+                                       const std::vector<unsigned int> &active,
+                                       ContactState &contacts,
+                                       const double viscous_beta,
+                                       const bool damps, Losses &losses)
   {
-    return edges.is_own(contacts.pairs[pair].lower);
+    const MovingEdges &moving = near.moving_edges();
+    using L                   = Lanes<lanes>;
+    using F                   = LaneFunctions<lanes>;
+    using P                   = PairFunctions<lanes>;
+    using Value               = typename F::Value;
+    using Bits                = typename F::Bits;
+
+    const typename ContactPack<Law, lanes>::Laws laws_in_lanes(law);
+    ContactPack<Law, lanes> pack;
+    const Value none{};
+    DissipationLanes<lanes> lost;
+    Value lost_by_contact{};
+    const unsigned int n_active = active.size();
+    for (unsigned int first = 0; first < n_active; first += lanes)
+    {
+      // Lanes beyond the last pair repeat it.
+      const unsigned int n   = std::min<unsigned int>(lanes, n_active - first);
+      const unsigned int all = (1U << n) - 1;
+      std::uint32_t pair[lanes], ea[lanes], eb[lanes];
+      for (unsigned int l = 0; l < lanes; ++l)
+      {
+        pair[l] = active[first + std::min(l, n - 1)];
+        ea[l]   = near.edges_of(pair[l])[0];
+        eb[l]   = near.edges_of(pair[l])[1];
+      }
+      EdgeLanes<lanes> a, b;
+      moving.load(ea, a);
+      moving.load(eb, b);
+      ContactPair *pairs = contacts.pairs.data();
+      // Those of the pack after the next one: active pairs lie anywhere.
+      for (unsigned int j = first + 2 * lanes;
+           j < std::min(n_active, first + 3 * lanes); ++j)
+        for (unsigned int line = 0; line < sizeof(ContactPair); line += 64)
+          __builtin_prefetch(
+              reinterpret_cast<const char *>(pairs + active[j]) + line, 1);
+      PairLanes<lanes> at;
+      L::load(reinterpret_cast<const char *>(&pairs->shift),
+              sizeof(ContactPair), pair, at.shift, at.shift_start);
+      at.was_joint = F::each([&](const int l) -> double
+                             { return pairs[pair[l]].was_joint; })
+                     != 0.;
+      at.active             = none == none;
+      const Bits is_general = at.was_joint == Bits{};
+      Value share, depth_limit;
+      L::load(reinterpret_cast<const char *>(near.weights().data()),
+              sizeof(NearPairs::Weight), pair, share, depth_limit);
+
+      pack.load(pairs, pair, 0);
+      at.anchor = pack.anchor;
+      PairGeometry<lanes> g;
+      const unsigned int found
+          = F::set_lanes(moving.find_geometry(at, ea, a, eb, b, g)) & all;
+      const Bits present
+          = F::each([&](const int l) { return found >> l & 1 ? 1. : 0.; })
+            != 0.;
+      TractionLanes<lanes> forces, viscous;
+      for (unsigned int k = 0; k < 2 && found != 0; ++k)
+      {
+        if (k == 1)
+          pack.load(pairs, pair, 1);
+        if (found != (1U << lanes) - 1)
+          pack.keep(found);
+        const Value(&normal)[2] = g.normal[k];
+        // What crushed has closed for good and is not overlap.
+        const Value deep = F::minimum(none, pack.plastic_before) - g.opening[k];
+        const unsigned int too_deep
+            = F::set_lanes(present & (deep > depth_limit) & (g.overlap > deep));
+        for (unsigned int l = 0; l < n && too_deep >> l != 0; ++l)
+          if (too_deep >> l & 1)
+            note_depth(pair[l], F::at(deep, l));
+
+        const Value depth = pack.plastic_before - g.opening[k];
+        Value sideways{};
+        const Bits is_deeper = present & (depth > g.overlap);
+        if (F::any(is_deeper))
+          sideways = is_deeper
+                         ? g.sideways * (depth - g.overlap * g.overlap / depth)
+                         : none;
+        const Value opening  = g.opening[k] + sideways;
+        const Value slip_now = P::slip(pack.anchor, a, b, normal);
+
+        // What an heir does as it comes, with no area, is not its own work.
+        const Value mean_area
+            = (present & (pack.area_before > 0.))
+                  ? 0.5 * (g.area[k] + pack.area_before) * share
+                  : none;
+        pack.advance(law, laws_in_lanes, present, opening, slip_now, mean_area,
+                     lost);
+        const Value sigma = g.area[k] * pack.sigma;
+        const Value tau   = g.area[k] * pack.tau;
+
+        // What the trapezoidal work of a spring with changing area leaves over
+        // from the change of its energy.
+        Value of_contact
+            = share * (pack.area_before - g.area[k]) * pack.carried(law);
+        // Kinks of the law within a step: what the trapezoidal work of a
+        // contact that closes or opens there has beyond its energy.
+        const Value gap_before = open_gap<lanes>(
+            pack.sigma_before, pack.opening_before, pack.plastic_before);
+        const Value gap_now
+            = open_gap<lanes>(pack.sigma, opening, pack.plastic_opening());
+        of_contact += 0.5 * share
+                      * (pack.area_before * pack.sigma_before + sigma)
+                      * (gap_now - gap_before);
+        const Bits turns = present & is_general
+                           & ((pack.lean_before != g.lean[k])
+                              | (pack.sideways_before != sideways));
+        if (F::any(turns))
+        {
+          // What of the opening and of the slip came since the last step by
+          // the turning of the normal from one edge to the other.
+          Value before[2], d[2];
+          P::normal_between(a, b, g.tangent, pack.lean_before, before);
+          P::gap(a, b, g.lower[k], g.upper[k], d);
+          const Value x = opening - (d[0] * before[0] + d[1] * before[1])
+                          - pack.sideways_before;
+          const Value y = slip_now - P::slip(pack.anchor, a, b, before);
+          of_contact -= turns ? 0.5 * mean_area
+                                    * ((pack.sigma_before + pack.sigma) * x
+                                       + (pack.tau_before + pack.tau) * y)
+                              : none;
+        }
+        lost_by_contact += present ? of_contact : none;
+
+        const Bits flows     = present & pack.flows();
+        const bool any_flows = F::any(flows);
+        if (any_flows)
+        {
+          // Anchors behind would turn rotation into slip.
+          pack.anchor.lower   = flows ? g.lower[k] : pack.anchor.lower;
+          pack.anchor.upper   = flows ? g.upper[k] : pack.anchor.upper;
+          const Value counted = P::slip(pack.anchor, a, b, normal);
+          pack.anchor.slip_offset += flows ? slip_now - counted : none;
+        }
+        pack.store(g.area[k], opening, g.lean[k], sideways, any_flows);
+
+        P::add_tractions(a, b, g, k, pack.anchor, sigma, tau, forces);
+        if (viscous_beta == 0. && !damps)
+          continue;
+        Value stiffness[2];
+        pack.stiffness(law, stiffness);
+        if (viscous_beta > 0.)
+        {
+          Value rate[2];
+          moving.relative_velocity<lanes>(ea, eb, g.lower[k], g.upper[k], rate);
+          const Value w = flows ? none : viscous_beta * g.area[k];
+          const Value vn
+              = w * stiffness[0] * (rate[0] * normal[0] + rate[1] * normal[1]);
+          const Value vs
+              = w * stiffness[1] * (rate[0] * normal[1] - rate[1] * normal[0]);
+          const Value f[2] = { vn * normal[0] + vs * normal[1],
+                               vn * normal[1] - vs * normal[0] };
+          P::spread(g.lower[k], g.upper[k], f, viscous);
+        }
+        for (unsigned int l = 0; l < n && damps; ++l)
+          if ((found >> l & 1) && F::at(pack.sigma, l) < 0.)
+            note_dashpot(
+                { pair[l],
+                  k,
+                  F::at(g.area[k], l),
+                  F::at(g.lower[k], l),
+                  F::at(g.upper[k], l),
+                  { F::at(normal[0], l), F::at(normal[1], l) },
+                  { F::at(opening, l), F::at(slip_now, l) },
+                  { F::at(stiffness[0], l), F::at(stiffness[1], l) } });
+      }
+      moving.add_to_ends(P::end_forces(a, b, forces), ea, eb, found,
+                         compact_force.data());
+      if (viscous_beta > 0.)
+        moving.add_to_ends(P::end_forces(a, b, viscous), ea, eb, found,
+                           compact_viscous.data());
+      for (unsigned int l = 0; l < n && found != all; ++l)
+        if (~found >> l & 1)
+        {
+          losses.contact
+              += near.weights()[pair[l]].share * release(pairs[pair[l]]);
+          pairs[pair[l]].was_open = 0;
+          contacts.marks[pair[l]] = PairMark::unseen;
+        }
+    }
+    losses.friction += F::sum(lost.friction);
+    losses.fracture += F::sum(lost.fracture);
+    losses.crushing += F::sum(lost.crushing);
+    losses.contact += F::sum(lost_by_contact);
+  }
+
+  void BlockContacts::add_forces(const StepContext &step, State<2> &state,
+                                 const NodeForces<2> &forces)
+  {
+    ContactState &contacts    = state.get<ContactState>();
+    const double viscous_beta = forces.viscous ? step.stiffness_damping : 0.;
+    const bool damps          = forces.viscous && has_dashpots();
+    if (viscous_beta > 0. || damps)
+      near.moving_edges().gather_velocities(state.velocity.data());
+    if (damps)
+    {
+      dashpots.clear();
+      dashpot_points.clear();
+    }
+    if (contacts.marks.empty())
+      make_marks(contacts);
+    spent.updates += contacts.pairs.size();
+    Losses losses;
+    switch (n_lanes)
+    {
+    case 1:
+      add_forces_in_lanes<1>(contacts, viscous_beta, damps, losses);
+      break;
+    case 4:
+      add_forces_in_lanes<4>(contacts, viscous_beta, damps, losses);
+      break;
+    default:
+      add_forces_in_lanes<8>(contacts, viscous_beta, damps, losses);
+    }
+    if (damps)
+      add_dashpot_forces(contacts);
+    state.energy.friction += losses.friction;
+    state.energy.fracture += losses.fracture;
+    state.energy.crushing += losses.crushing;
+    state.energy.contact += losses.contact;
+
+    near.moving_edges().scatter(compact_force, forces.force);
+    if (viscous_beta > 0. || damps)
+      near.moving_edges().scatter(compact_viscous, forces.viscous);
+  }
+
+  bool BlockContacts::has_dashpots() const
+  {
+    return dashpots.knows_blocks()
+           && std::any_of(dampings.begin(), dampings.end(),
+                          [](const JointDamping &damping)
+                          { return damping.acts(); });
+  }
+
+  void BlockContacts::bind_dashpots(const ContactState &contacts)
+  {
+    std::vector<PairDashpots::Item> items;
+    for (const ContactPair &pair : contacts.pairs)
+    {
+      const ContactEdge &a = edges[pair.lower], &b = edges[pair.upper];
+      items.push_back({ { { a.block, b.block } }, { { a.group, b.group } } });
+    }
+    dashpots.bind(items);
+  }
+
+  void BlockContacts::note_dashpot(const DashpotPoint &point)
+  {
+    dashpots.add_springs(point.pair, near.weights()[point.pair].share,
+                         point.area * point.stiffness[0],
+                         point.area * point.stiffness[1]);
+    dashpot_points.push_back(point);
+  }
+
+  void BlockContacts::add_dashpot_forces(const ContactState &contacts)
+  {
+    const MovingEdges &moving = near.moving_edges();
+    dashpots.sum_over_ranks();
+    for (const DashpotPoint &at : dashpot_points)
+    {
+      const ContactPair &pair     = contacts.pairs[at.pair];
+      const JointDamping &damping = dampings[pair.set];
+      if (!damping.acts() || at.area == 0.)
+        continue;
+      const auto &[a, b]   = near.edges_of(at.pair);
+      const auto &[nx, ny] = at.normal;
+      double v[2];
+      moving.relative_velocity<1>(&a, &b, at.lower, at.upper, v);
+      const std::array<double, 2> rate
+          = { { v[0] * nx + v[1] * ny, v[0] * ny - v[1] * nx } };
+      const auto times = dashpots.times(at.pair, damping, at.stiffness);
+      std::array<double, 2> traction{};
+      with_law(pair.set,
+               [&](const auto &law)
+               {
+                 traction = dashpot_tractions(
+                     law, read_point(law, pair.points[at.k]), at.gap, rate,
+                     times);
+               });
+      const double sigma = at.area * traction[0], tau = at.area * traction[1];
+      const double f[2] = { sigma * nx + tau * ny, sigma * ny - tau * nx };
+      EdgeLanes<1> edge_a, edge_b;
+      moving.load(&a, edge_a);
+      moving.load(&b, edge_b);
+      TractionLanes<1> forces;
+      PairFunctions<1>::spread(at.lower, at.upper, f, forces);
+      moving.add_to_ends(PairFunctions<1>::end_forces(edge_a, edge_b, forces),
+                         &a, &b, 1, compact_viscous.data());
+    }
   }
 } // namespace quoin

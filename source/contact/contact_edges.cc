@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/node_record.h>
 #include <quoin/contact/contact_edges.h>
 
 #include <deal.II/base/mpi_consensus_algorithms.h>
@@ -145,6 +146,7 @@ namespace quoin
     for (const ContactEdge &edge : own_edges)
       own_nodes.push_back({ { nodes.exchange().local(edge.nodes[0]),
                               nodes.exchange().local(edge.nodes[1]) } });
+    find_boundary_nodes();
   }
 
   void ContactEdges::find_interfaces()
@@ -425,5 +427,18 @@ namespace quoin
                                 && !is_in(across_joints, edge.number);
                        }),
         foreign_edges.end());
+  }
+
+  void ContactEdges::find_boundary_nodes()
+  {
+    const NodeExchange &exchange = node_map.exchange();
+    std::vector<dealii::Tensor<1, 1>> n_starts(exchange.n_local(),
+                                        dealii::Tensor<1, 1>({ 0. }));
+    for (const auto &[first, last] : own_nodes)
+      n_starts[first][0] += 1.;
+    exchange.add_to_owners(n_starts.data());
+    for (unsigned int i = 0; i < exchange.n_owned(); ++i)
+      if (n_starts[i][0] > 0.)
+        starts.push_back(i);
   }
 } // namespace quoin

@@ -90,7 +90,7 @@ namespace quoin
 
     const double before = kinetic();
     const ScaledMasses<dim> masses(model, stage.scaled_time_step,
-                                   all.beams.get(), state);
+                                   beam_motion.get(), state);
     node_mass               = masses.nodes;
     rigid_stage.mass_factor = masses.rigid_factor;
     added                   = masses.added;

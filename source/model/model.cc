@@ -190,8 +190,7 @@ namespace quoin
     matched_joints.set_laws(now.joints);
     if (block_contacts)
     {
-      block_contacts->set_laws(now.joints);
-      block_contacts->set_materials(now.material_of_group);
+      block_contacts->set_properties(now.joints, now.material_of_group);
     }
     find_stable_step();
   }

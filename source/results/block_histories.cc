@@ -190,9 +190,9 @@ namespace quoin
       for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         const bool is_lower = acts(pairs[p], lower, upper);
-        BlockContacts::EndForces ends;
+        ContactEndForces ends;
         if ((!is_lower && !acts(pairs[p], upper, lower))
-            || !contacts->end_forces(all, i, ends))
+            || !contacts->near_pairs().end_forces(all, i, ends))
           continue;
         for (const unsigned int n : { is_lower ? 0 : 2, is_lower ? 1 : 3 })
           add_force(pairs[p], ends.share, ends.place[n], ends.force[n],

@@ -33,7 +33,8 @@ namespace quoin
       {
         const std::string name = ContactState::slice_name;
         List &watched          = result.own[name];
-        for (const unsigned int node : contacts->watched_nodes())
+        for (const unsigned int node :
+             contacts->contact_edges().boundary_nodes())
           watched.push_back(nodes.number_of_node(node));
         List &edges = result.own[EntryNumbers::edges_of(name)];
         for (const ContactEdge &edge : contacts->contact_edges().own())

@@ -222,8 +222,9 @@ namespace quoin
     const auto &pairs       = all.pairs;
     for (unsigned int i = 0; i < pairs.size(); ++i)
     {
-      BlockContacts::Contact contact;
-      if (!contacts.is_own(all, i) || !contacts.contact(all, i, contact))
+      Contact contact;
+      if (!contacts.contact_edges().is_own(pairs[i].lower)
+          || !contacts.near_pairs().contact(all, i, contact))
         continue;
       fields.joint_set.push_back(contact.set);
       fields.handed_over.push_back(pairs[i].was_joint);

@@ -931,8 +931,8 @@ namespace quoin
     for (unsigned int i = 0; i < n_columns; ++i)
       if (probes[i].parameters.quantity == HistoryQuantity::contacts
           && model.contacts())
-        row[1 + i]
-            = model.contacts()->n_touching(state.template get<ContactState>());
+        row[1 + i] = n_touching(model.contacts()->near_pairs(),
+                                state.template get<ContactState>());
     if constexpr (dim == 2)
       for (unsigned int i = 0; i < n_columns; ++i)
         if (probes[i].parameters.quantity == HistoryQuantity::open_joints)

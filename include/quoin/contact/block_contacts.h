@@ -7,15 +7,13 @@
 #include <quoin/base/lanes.h>
 #include <quoin/contact/contact_state.h>
 #include <quoin/operators/force_operator.h>
-#include <quoin/contact/contact_edges.h>
-#include <quoin/contact/contact_parameters.h>
 #include <quoin/joint_elements/matched_joints.h>
-#include <quoin/contact/pair_copies.h>
+#include <quoin/contact/contact_skin.h>
+#include <quoin/contact/near_pairs.h>
 #include <quoin/joint_elements/pair_dashpots.h>
 #include <quoin/joint_laws/joint_parameters.h>
 
 #include <array>
-#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,14 +21,6 @@
 namespace quoin
 {
   struct EdgeEnds;
-  template <int lanes>
-  struct EdgeLanes;
-  template <int lanes>
-  struct PairLanes;
-  template <int lanes>
-  struct PairGeometry;
-  template <int lanes>
-  struct EndForceLanes;
 
   /** What contacts are made of, beside the mesh. */
   struct ContactModel
@@ -40,6 +30,16 @@ namespace quoin
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;
     Thickness thickness; /**< of each cell group */
+    /** Pairs that go through the lanes together, 1, 4 or 8. One by one they
+        are the reference of the others. */
+    unsigned int n_lanes = native_lanes;
+  };
+
+  /** What this rank and process has spent on contacts so far. */
+  struct ContactWork
+  {
+    std::uint64_t updates = 0;  /**< pairs looked at */
+    double search_seconds = 0.; /**< wall time of searches [s] */
   };
 
   /**
@@ -115,21 +115,11 @@ namespace quoin
         materials with any that are in the mesh. Collective. */
     std::vector<std::uint8_t> sets_on_blocks() const;
 
-    /** Other laws of the same joint sets, with the same stiffness. */
-    void set_laws(const std::vector<JointSetParameters> &sets);
-    /** Other materials of the cell groups: what begins from now on follows
-        their sets. */
-    void set_materials(const std::vector<unsigned int> &of_group)
-    {
-      material_of_group = of_group;
-    }
-
-    /** Pairs that go through the lanes together, 1, 4 or 8: for tests, which
-        take pairs one by one for reference. */
-    void set_lanes(const unsigned int n)
-    {
-      n_lanes = n;
-    }
+    /** Other laws of the same joint sets, with the same stiffness, and other
+        materials of the cell groups: what begins from now on follows their
+        sets. */
+    void set_properties(const std::vector<JointSetParameters> &sets,
+                        const std::vector<unsigned int> &material_of_group);
 
     /** Sets what dashpots need, without which there are none. */
     void set_blocks(const DashpotBlocks &blocks)
@@ -151,94 +141,24 @@ namespace quoin
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
 
-    double stored_energy(const State<2> &state) const;
     void add_stored_energy(const State<2> &state,
-                           EnergyAccounts &energies) const override
-    {
-      energies.joint += stored_energy(state);
-    }
+                           EnergyAccounts &energies) const override;
 
-    /** Points that press on each other, this rank's share. */
-    double n_touching(const ContactState &contacts) const;
-
-    /** Pairs looked at so far, by this rank and process. */
-    std::uint64_t n_updates() const
+    const ContactWork &work() const
     {
-      return updates;
+      return spent;
     }
-    /** Wall time of this rank's searches so far [s]. */
-    double search_seconds() const
-    {
-      return seconds;
-    }
-
     const ContactEdges &contact_edges() const
     {
       return edges;
     }
-    /** Local nodes of ContactState::search_positions. */
-    const std::vector<unsigned int> &watched_nodes() const
+    /** Pairs at the positions of update(). */
+    const NearPairs &near_pairs() const
     {
-      return boundary_nodes;
+      return near;
     }
 
-    /** One contact as it is written to files and tables. */
-    struct Contact
-    {
-      /** Vectors x, y at both ends of the overlap. */
-      using Ends = std::array<dealii::Tensor<1, 2>, 2>;
-
-      unsigned int set;
-      Ends lower, upper;                   /**< places on both edges [m] */
-      Ends reference;                      /**< of lower [m] */
-      std::array<double, 2> opening, slip; /**< [m] */
-      Ends force;   /**< on the lower edge, without viscous ones [N] */
-      double share; /**< of the contact that this rank counts */
-    };
-    /** The contact of pair @p pair at the positions of update(); false if it is
-        inactive or the edges do not overlap. */
-    bool contact(const ContactState &contacts, unsigned int pair,
-                 Contact &result) const;
-    /** The forces of a pair on the ends of the lower edge and then of the upper
-        one as they act on the nodes, without viscous ones. They have the
-        resultant of Contact::force; their moment is also that by which the
-        contact's area and normals go with the rotation of the edges. */
-    struct EndForces
-    {
-      std::array<dealii::Tensor<1, 2>, 4> place; /**< [m] */
-      std::array<dealii::Tensor<1, 2>, 4> force; /**< [N] */
-      double share; /**< of the contact that this rank counts */
-    };
-    /** Forces of @p pair at the positions of update(); returns false if it is
-        inactive or the edges do not overlap. */
-    bool end_forces(const ContactState &contacts, unsigned int pair,
-                    EndForces &result) const;
-    /** Whether this rank writes the pair. */
-    bool is_own(const ContactState &contacts, unsigned int pair) const;
-
   private:
-    /** An edge that takes part, where it is now; see EdgeLanes. */
-    struct alignas(64) Edge
-    {
-      double x, y, tangent[2];
-      double length, inverse_length, thickness, reference_ratio;
-    };
-    /** What it is joined to. */
-    struct alignas(32) EdgeLinks
-    {
-      double corner[2];            /**< see ContactEdge */
-      std::uint32_t nodes[2];      /**< compact */
-      std::uint32_t neighbours[2]; /**< edges before and after, or itself */
-    };
-    /** What stays the same of a pair. */
-    struct alignas(16) PairWeight
-    {
-      double share; /**< of the energy that we count */
-      double depth; /**< that is too deep [m] */
-    };
-    using Geometry                           = PairGeometry<1>;
-    static constexpr unsigned int most_lanes = 8;
-
     /** Calls @p use with the law of a set, of its own type. */
     template <typename Use>
     void with_law(const unsigned int set, const Use &use) const
@@ -251,12 +171,6 @@ namespace quoin
     }
     void find_set_of_materials(const std::vector<JointSetParameters> &sets);
     void check(State<2> &state, double dt);
-    /** Marks interfaces with joints of this rank that are to become general
-        contacts; whether there are any. */
-    bool find_handovers(State<2> &state) const;
-    /** Makes general contacts of the joints of marked interfaces. Collective.
-     */
-    void hand_over(State<2> &state) const;
     /** @p rate: by what edges may have approached in a step since the last
         search [m]. */
     void search(State<2> &state, double rate);
@@ -265,68 +179,14 @@ namespace quoin
     std::vector<std::array<unsigned int, 2>>
     find_pairs(const std::vector<EdgeEnds> &ends, double apart, double rate,
                ContactState &contacts) const;
-    /** Step after which another search may be cheaper; largest: none. */
-    std::uint64_t renewal(const ContactState &contacts, double rate) const;
-    /** Distance within which a search looks for pairs [m]. */
-    double search_distance(const ContactState &contacts) const;
-    /** The skin within search_distance() [m] for which searches and pairs that
-       stay apart cost least together. @p sides: by skin, how many sides of
-       pairs of this rank it takes in. */
-    double cheapest_skin(std::vector<unsigned int> sides, double rate,
-                         const ContactState &contacts) const;
     bool is_matched(const ContactState &contacts, unsigned int a,
                     unsigned int b) const;
     ContactPair new_pair(const EdgeEnds &a, const EdgeEnds &b) const;
     void inherit_shifts(ContactState &contacts) const;
     /** Counts slip from where the edges touch now. */
     void reanchor(ContactState &contacts) const;
-    float share(const ContactPair &pair) const;
     /** Prepares for the pairs at hand. */
     void bind(const ContactState &contacts);
-    void bind_edges(const ContactState &contacts);
-    void bind_nodes();
-    void bind_pairs(const ContactState &contacts);
-    /** The pair that entry @p i of edge_pairs stands for. */
-    const ContactPair &pair_or_copy(const ContactState &contacts,
-                                    const unsigned int i) const
-    {
-      return i < contacts.pairs.size()
-                 ? contacts.pairs[i]
-                 : copies.pairs()[i - contacts.pairs.size()];
-    }
-    /** Index of @p edge into local_edges. */
-    unsigned int local_edge(unsigned int edge) const;
-    void gather(const State<2> &state);
-
-    /** The edges @p e, one for each lane. */
-    template <int lanes>
-    void load_edges(const std::uint32_t *e, EdgeLanes<lanes> &to) const;
-    /** See PairFunctions::find(); @p ea, @p eb: the edges @p a and @p b. */
-    template <int lanes>
-    typename Lanes<lanes>::Bits
-    find_geometry(const PairLanes<lanes> &pairs, const std::uint32_t *ea,
-                  const EdgeLanes<lanes> &a, const std::uint32_t *eb,
-                  const EdgeLanes<lanes> &b, PairGeometry<lanes> &result) const;
-    /** That of entry @p i of pair_edges, @p pair; false if its edges do not
-        overlap. */
-    bool geometry(const ContactPair &pair, unsigned int i,
-                  Geometry &result) const;
-    double slip(const ContactPoint &point, unsigned int i,
-                const double (&normal)[2]) const;
-    /** What of the shift of a pair is left after the slip since. */
-    double shift_left(const ContactPair &pair, unsigned int i,
-                      const Geometry &g) const;
-    /** Velocity of places of the edges @p eb against those of @p ea. */
-    template <int lanes>
-    void relative_velocity(const std::uint32_t *ea, const std::uint32_t *eb,
-                           const typename Lanes<lanes>::Value &lower,
-                           const typename Lanes<lanes>::Value &upper,
-                           typename Lanes<lanes>::Value (&rate)[2]) const;
-    /** Adds forces of the lanes @p present to compact nodes. */
-    template <int lanes>
-    void add_to_ends(const EndForceLanes<lanes> &forces,
-                     const std::uint32_t *ea, const std::uint32_t *eb,
-                     unsigned int present, dealii::Tensor<1, 2> *to) const;
     /** What a step loses [J]. */
     struct Losses
     {
@@ -343,17 +203,12 @@ namespace quoin
                           const std::vector<unsigned int> &active,
                           ContactState &contacts, double viscous_beta,
                           bool damps, Losses &losses);
-    void gather_velocities(const dealii::Tensor<1, 2> *velocity);
     void bind_dashpots(const ContactState &contacts);
     struct DashpotPoint;
     /** Notes a point that presses on its springs. */
     void note_dashpot(const DashpotPoint &point);
     /** Adds the forces of the dashpots of noted points. */
     void add_dashpot_forces(const ContactState &contacts);
-    /** Adds what is in @p from to nodes of own edges, and empties that. */
-    void scatter(AlignedArray<dealii::Tensor<1, 2>> &from,
-                 dealii::Tensor<1, 2> *to) const;
-    void make_marks(ContactState &contacts) const;
     /** Activates pairs that have come into contact; sets active_pairs. */
     template <int lanes>
     void begin_contacts(ContactState &contacts);
@@ -365,11 +220,7 @@ namespace quoin
     /** Activates a pair that overlaps by @p geometry if it is in contact;
         returns true if so. */
     bool begin_contact(ContactState &contacts, unsigned int pair,
-                       const Geometry &geometry);
-    /** Whether the vertex at end @p k of a pair lies within the edges before
-        and after the one that it touches. */
-    bool vertex_is_inside(unsigned int pair, const Geometry &geometry,
-                          unsigned int k) const;
+                       const NearPairs::Geometry &geometry);
     /**
      * Set, history, slip (as offset) and deepest opening [m] of the neighbour
      * that a new pair goes on from; false if there is none.
@@ -389,41 +240,20 @@ namespace quoin
     const MatchedJoints &joints;
     const NodeExchange &exchange;
     ContactEdges edges;
-    PairCopies copies;
     const ContactParameters parameters;
     const Thickness thickness;
-    double largest_skin;                /**< [m] */
+    NearPairs near;
+    const ContactSkin skin;
     std::vector<JointLaw> laws;         /**< of each set */
     std::vector<JointDamping> dampings; /**< the same */
     bool dilates = false;               /**< a set does */
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;
     std::vector<unsigned int> set_of_materials; /**< square table */
-    std::vector<unsigned int> boundary_nodes;   /**< owned, local, ascending */
 
-    // What the pairs at hand need, made again whenever they change. Nodes of
-    // own edges come first, then those of foreign edges, which may be the same:
-    // forces on the latter are their rank's.
-    std::uint64_t bound_search = -1;
-    std::unique_ptr<NodeExchange> reach;
-    std::vector<unsigned int> compact_own; /**< local node of each */
-    std::vector<unsigned int> far_nodes;   /**< of foreign edges, global */
-    std::vector<NodeRecord<2>> ghost_nodes;
-    std::vector<dealii::Tensor<1, 2>> ghost_velocity;
-    /** Local edges of pairs, then of copies, then zeros for all lanes. */
-    std::vector<std::array<std::uint32_t, 2>> pair_edges;
-    AlignedArray<PairWeight> pair_weights;
-    unsigned int n_lanes = native_lanes;
-    std::vector<double> reference_lengths;  /**< of the local edges [m] */
-    std::vector<double> edge_thickness;     /**< of the cells behind them [m] */
-    std::vector<unsigned int> edge_numbers; /**< of the local edges */
-    /** Pairs and copies of each local edge, ascending in their edges. */
-    std::vector<unsigned int> edge_pairs_begin, edge_pairs;
-
-    AlignedArray<dealii::Tensor<1, 2>> position, compact_force,
-        compact_velocity, compact_viscous;
-    AlignedArray<Edge> local_edges;
-    AlignedArray<EdgeLinks> edge_links;
+    std::uint64_t bound_search = -1; /**< search whose pairs are at hand */
+    const unsigned int n_lanes;
+    AlignedArray<dealii::Tensor<1, 2>> compact_force, compact_viscous; /**< [N] */
     // Pairs of the present step.
     std::vector<unsigned int> active_pairs, idle_pairs, new_contacts;
     std::vector<std::vector<unsigned int>> pairs_of_set; /**< active ones */
@@ -443,8 +273,7 @@ namespace quoin
     bool search_is_due        = false;
     double deepest_ratio      = 0.;
     unsigned int deepest_pair = 0;
-    std::uint64_t updates     = 0;
-    double seconds            = 0.;
+    ContactWork spent;
   };
 } // namespace quoin
 

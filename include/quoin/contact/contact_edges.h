@@ -78,6 +78,11 @@ namespace quoin
     {
       return own_nodes;
     }
+    /** Owned nodes where an edge of any rank starts, local, ascending. */
+    const std::vector<unsigned int> &boundary_nodes() const
+    {
+      return starts;
+    }
     /** Edges of other ranks that this one has received, ascending. */
     const std::vector<ContactEdge> &foreign() const
     {
@@ -140,6 +145,7 @@ namespace quoin
     void number_edges();
     void join_over_ranks();
     void find_joint_edges();
+    void find_boundary_nodes();
 
     bool has_all() const
     {
@@ -164,6 +170,7 @@ namespace quoin
     unsigned int n_edges = 0;
     std::vector<ContactEdge> own_edges, foreign_edges;
     std::vector<std::array<unsigned int, 2>> own_nodes;
+    std::vector<unsigned int> starts; /**< see boundary_nodes() */
     std::vector<JointEdges> edges_of_joints;
     std::vector<unsigned int> across_joints; /**< foreign, ascending */
     std::map<unsigned int, unsigned int> rank_of_neighbour;

@@ -57,7 +57,7 @@ namespace quoin
   {
     /** @p time_step: that step [s]; 0: nothing is scaled. @p beams: of the run,
         or null; finds their masses, too. Collective. */
-    ScaledMasses(const Model<dim> &model, double time_step, Beams *beams,
+    ScaledMasses(const Model<dim> &model, double time_step, BeamMotion *beams,
                  const State<dim> &state);
 
     std::vector<double> nodes;        /**< of local nodes [kg] */
@@ -69,12 +69,12 @@ namespace quoin
 
   private:
     void find_beam_masses(const Model<dim> &model, double time_step,
-                          Beams &beams, const State<dim> &state);
+                          BeamMotion &beams, const State<dim> &state);
   };
 
   template <>
   void ScaledMasses<2>::find_beam_masses(const Model<2> &model,
-                                         double time_step, Beams &beams,
+                                         double time_step, BeamMotion &beams,
                                          const State<2> &state);
 } // namespace quoin
 

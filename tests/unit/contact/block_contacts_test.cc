@@ -5,6 +5,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/contact/contact_search.h>
+#include <quoin/operators/stored_energy.h>
 
 #include "test_contacts.h"
 
@@ -441,7 +442,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
         EXPECT_NEAR(general[d], before[d], 2e-3 * full)
             << "component " << d << ", angle " << angle << ", "
             << kind_of_law(joint.law);
-      EXPECT_NEAR(scene.contacts->stored_energy(scene.state),
+      EXPECT_NEAR(stored_energy(scene.state, *scene.contacts),
                   scene.joints.stored_energy(matched),
                   2e-3 * scene.joints.stored_energy(matched));
     }
@@ -635,7 +636,7 @@ namespace
     scene.turn(upper, now[0], x0, y0);
     scene.move(upper, now[1], now[2]);
     scene.find_forces();
-    const double at_start = scene.contacts->stored_energy(scene.state);
+    const double at_start = stored_energy(scene.state, *scene.contacts);
     const unsigned int n  = 40000;
     double work = 0., throughput = 0.;
     for (unsigned int i = 1; i <= n; ++i)
@@ -657,7 +658,8 @@ namespace
         }
     }
     const EnergyAccounts &lost = scene.state.energy;
-    const double stored = scene.contacts->stored_energy(scene.state) - at_start;
+    const double stored
+        = stored_energy(scene.state, *scene.contacts) - at_start;
     EXPECT_NEAR(work + stored + lost.friction + lost.contact, 0.,
                 1e-5 * throughput)
         << "work " << work << ", stored " << stored << ", friction "

@@ -34,14 +34,13 @@ namespace
       blocks.inverse_mass.assign(n_blocks, 1. / 200.);
       blocks.is_divided.assign(n_blocks, false);
       blocks.impedance.assign(n_blocks + 2, { { 1e6, 1e6 } });
-      for (auto &by : contacts)
+      ContactModel model = contact_model(sets);
+      for (const unsigned int i : { 0, 1 })
       {
-        by = std::make_unique<BlockContacts>(nodes, joints,
-                                             contact_model(sets));
-        by->set_blocks(blocks);
+        model.n_lanes = i == 0 ? lanes : 1;
+        contacts[i]   = std::make_unique<BlockContacts>(nodes, joints, model);
+        contacts[i]->set_blocks(blocks);
       }
-      contacts[0]->set_lanes(lanes);
-      contacts[1]->set_lanes(1);
       contacts[0]->prepare(state);
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         state.nodes.push_back(

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/operators/stored_energy.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -165,10 +166,12 @@ namespace
       EXPECT_LE(error, tolerance * largest);
       const auto sum
           = [](const double value) { return mpi::sum(value, world); };
-      EXPECT_EQ(sum(part.contacts.n_touching(part.state.get<ContactState>())),
-                whole.contacts.n_touching(whole.state.get<ContactState>()));
-      const double energy = whole.contacts.stored_energy(whole.state);
-      EXPECT_NEAR(sum(part.contacts.stored_energy(part.state)), energy,
+      EXPECT_EQ(sum(n_touching(part.contacts.near_pairs(),
+                               part.state.get<ContactState>())),
+                n_touching(whole.contacts.near_pairs(),
+                           whole.state.get<ContactState>()));
+      const double energy = stored_energy(whole.state, whole.contacts);
+      EXPECT_NEAR(sum(stored_energy(part.state, part.contacts)), energy,
                   1e-12 * energy);
       EXPECT_EQ(part.state.get<ContactState>().n_searches,
                 whole.state.get<ContactState>().n_searches);
@@ -313,9 +316,9 @@ TEST(ContactsOfRanks, AreThoseOfOneRankWithTheNeighbourhoodAlone)
     most = std::max<unsigned int>(most, edges.foreign().size());
   }
   EXPECT_GT(twins.part.state.get<ContactState>().n_searches, 10U);
-  EXPECT_GT(
-      twins.whole.contacts.n_touching(twins.whole.state.get<ContactState>()),
-      100.);
+  EXPECT_GT(n_touching(twins.whole.contacts.near_pairs(),
+                       twins.whole.state.get<ContactState>()),
+            100.);
   // Of each block beside this rank's the side that faces it and, about either
   // corner, an edge that may be near and the one after that.
   EXPECT_LE(most, 2 * n_rows * (4 + 4));

@@ -254,8 +254,8 @@ TEST(Thickness, GeneralContactsBearOverTheSmallerOne)
     const ContactState &state = run.state.get<ContactState>();
     double force              = 0.;
     for (unsigned int i = 0; i < state.pairs.size(); ++i)
-      if (BlockContacts::Contact contact;
-          run.model.contacts()->contact(state, i, contact))
+      if (Contact contact;
+          run.model.contacts()->near_pairs().contact(state, i, contact))
         force += contact.force[0][1] + contact.force[1][1];
     EXPECT_NEAR(force, -stiffness * overlap * 2.75 * std::min(lower, upper),
                 1e-6 * stiffness * overlap);

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_source_contact_contact_pairs_h
-#define quoin_source_contact_contact_pairs_h
+#ifndef quoin_source_contact_edge_lanes_h
+#define quoin_source_contact_edge_lanes_h
 
-#include <quoin/contact/block_contacts.h>
+#include <quoin/contact/moving_edges.h>
 
 #include "pair_lanes.h"
 
-// Edges and pairs of the contact operator for PairFunctions.
+// Moving edges for PairFunctions.
 
 namespace quoin
 {
   template <int lanes>
-  QUOIN_INLINE void BlockContacts::load_edges(const std::uint32_t *e,
-                                              EdgeLanes<lanes> &to) const
+  QUOIN_INLINE void MovingEdges::load(const std::uint32_t *e,
+                                      EdgeLanes<lanes> &to) const
   {
     using Value = typename Lanes<lanes>::Value;
     Value place[4], size[4];
@@ -31,14 +31,15 @@ namespace quoin
     to.thickness       = size[2];
     to.reference_ratio = size[3];
     Lanes<lanes>::load(reinterpret_cast<const char *>(edge_links.data()),
-                       sizeof(EdgeLinks), e, to.corner[0], to.corner[1]);
+                       sizeof(Links), e, to.corner[0], to.corner[1]);
   }
 
   template <int lanes>
-  QUOIN_INLINE typename Lanes<lanes>::Bits BlockContacts::find_geometry(
-      const PairLanes<lanes> &pairs, const std::uint32_t *ea,
-      const EdgeLanes<lanes> &a, const std::uint32_t *eb,
-      const EdgeLanes<lanes> &b, PairGeometry<lanes> &result) const
+  QUOIN_INLINE typename Lanes<lanes>::Bits
+  MovingEdges::find_geometry(const PairLanes<lanes> &pairs,
+                             const std::uint32_t *ea, const EdgeLanes<lanes> &a,
+                             const std::uint32_t *eb, const EdgeLanes<lanes> &b,
+                             PairGeometry<lanes> &result) const
   {
     const auto tangent_beside
         = [&](const unsigned int is_a, const unsigned int k,
@@ -57,11 +58,12 @@ namespace quoin
         tangent_beside, result);
   }
   template <int lanes>
-  QUOIN_INLINE void BlockContacts::relative_velocity(
-      const std::uint32_t *ea, const std::uint32_t *eb,
-      const typename Lanes<lanes>::Value &lower,
-      const typename Lanes<lanes>::Value &upper,
-      typename Lanes<lanes>::Value (&rate)[2]) const
+  QUOIN_INLINE void
+  MovingEdges::relative_velocity(const std::uint32_t *ea,
+                                 const std::uint32_t *eb,
+                                 const typename Lanes<lanes>::Value &lower,
+                                 const typename Lanes<lanes>::Value &upper,
+                                 typename Lanes<lanes>::Value (&rate)[2]) const
   {
     typename Lanes<lanes>::Value v[4][2];
     for (unsigned int n = 0; n < 4; ++n)
@@ -80,10 +82,9 @@ namespace quoin
 
   template <int lanes>
   QUOIN_INLINE void
-  BlockContacts::add_to_ends(const EndForceLanes<lanes> &forces,
-                             const std::uint32_t *ea, const std::uint32_t *eb,
-                             const unsigned int present,
-                             dealii::Tensor<1, 2> *to) const
+  MovingEdges::add_to_ends(const EndForceLanes<lanes> &forces,
+                           const std::uint32_t *ea, const std::uint32_t *eb,
+                           const unsigned int present, dealii::Tensor<1, 2> *to) const
   {
     // Pair after pair, so that sums do not depend on which are beside which.
     using L = Lanes<lanes>;
@@ -98,7 +99,7 @@ namespace quoin
       if (present >> l & 1)
         for (unsigned int n = 0; n < 4; ++n)
         {
-          const EdgeLinks &edge = edge_links[n < 2 ? ea[l] : eb[l]];
+          const Links &edge = edge_links[n < 2 ? ea[l] : eb[l]];
           Lanes<4>::pair(reinterpret_cast<char *>(&to[edge.nodes[n % 2]]))
               += Lanes<4>::pair(
                   reinterpret_cast<const char *>(&rows[l][2 * n]));
