@@ -367,7 +367,7 @@ namespace quoin
         if (const BlockContacts *contacts = system.model->contacts())
           energy += stored_energy(base, *contacts);
       AlignedArray<dealii::Tensor<1, dim>> forces(base.nodes.size(),
-                                           dealii::Tensor<1, dim>());
+                                                  dealii::Tensor<1, dim>());
       for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
         load->add_loads({ 0., base.time }, forces.data());
       model.nodes().exchange().add_to_owners(forces.data());

@@ -136,9 +136,9 @@ namespace quoin
     for (unsigned int i = 0; i < edges.boundary_nodes().size() && !is_first;
          ++i)
     {
-      const NodeRecord<2> &node = state.nodes[edges.boundary_nodes()[i]];
-      const dealii::Tensor<1, 2> &from        = contacts.search_positions[i];
-      const dealii::Tensor<1, 2> &v           = state.velocity[edges.boundary_nodes()[i]];
+      const NodeRecord<2> &node        = state.nodes[edges.boundary_nodes()[i]];
+      const dealii::Tensor<1, 2> &from = contacts.search_positions[i];
+      const dealii::Tensor<1, 2> &v = state.velocity[edges.boundary_nodes()[i]];
       look.moved.take(node.X[0] + node.u[0] - from[0],
                       node.X[1] + node.u[1] - from[1]);
       look.speed.take(v[0], v[1]);

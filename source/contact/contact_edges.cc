@@ -433,7 +433,7 @@ namespace quoin
   {
     const NodeExchange &exchange = node_map.exchange();
     std::vector<dealii::Tensor<1, 1>> n_starts(exchange.n_local(),
-                                        dealii::Tensor<1, 1>({ 0. }));
+                                               dealii::Tensor<1, 1>({ 0. }));
     for (const auto &[first, last] : own_nodes)
       n_starts[first][0] += 1.;
     exchange.add_to_owners(n_starts.data());

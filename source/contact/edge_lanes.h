@@ -81,10 +81,11 @@ namespace quoin
   }
 
   template <int lanes>
-  QUOIN_INLINE void
-  MovingEdges::add_to_ends(const EndForceLanes<lanes> &forces,
-                           const std::uint32_t *ea, const std::uint32_t *eb,
-                           const unsigned int present, dealii::Tensor<1, 2> *to) const
+  QUOIN_INLINE void MovingEdges::add_to_ends(const EndForceLanes<lanes> &forces,
+                                             const std::uint32_t *ea,
+                                             const std::uint32_t *eb,
+                                             const unsigned int present,
+                                             dealii::Tensor<1, 2> *to) const
   {
     // Pair after pair, so that sums do not depend on which are beside which.
     using L = Lanes<lanes>;

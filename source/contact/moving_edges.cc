@@ -135,8 +135,10 @@ namespace quoin
   void MovingEdges::gather(const State<2> &state)
   {
     reach->update_ghosts(state.nodes.data(), ghost_nodes.data());
-    const auto place = [](const NodeRecord<2> &node) {
-      return dealii::Tensor<1, 2>({ node.X[0] + node.u[0], node.X[1] + node.u[1] });
+    const auto place = [](const NodeRecord<2> &node)
+    {
+      return dealii::Tensor<1, 2>(
+          { node.X[0] + node.u[0], node.X[1] + node.u[1] });
     };
     dealii::Tensor<1, 2> *to = position.data();
     for (const unsigned int i : compact_own)
@@ -180,16 +182,15 @@ namespace quoin
                             dealii::Tensor<1, 2> *to) const
   {
     for (unsigned int j = 0; j < compact_own.size(); ++j)
-      for (unsigned int d = 0; d < 2; ++d)
-        to[compact_own[j]][d] += from[j][d];
+      to[compact_own[j]] += from[j];
     std::fill(from.begin(), from.end(), dealii::Tensor<1, 2>());
   }
 
   bool MovingEdges::vertex_is_inside(const unsigned int e, const unsigned int k,
                                      const unsigned int touched_edge) const
   {
-    const Edge &touched  = local_edges[touched_edge];
-    const Links &links   = edge_links[touched_edge];
+    const Edge &touched                = local_edges[touched_edge];
+    const Links &links                 = edge_links[touched_edge];
     const dealii::Tensor<1, 2> &vertex = position[edge_links[e].nodes[k]];
     for (const unsigned int beside : links.neighbours)
     {

@@ -126,16 +126,19 @@ namespace quoin
     for (unsigned int k = 0; k < 2; ++k)
     {
       const double la = g.lower[k] * a.length, lb = g.upper[k] * b.length;
-      result.lower[k] = dealii::Point<2>(a.x + la * a.tangent[0], a.y + la * a.tangent[1]);
-      result.upper[k] = dealii::Point<2>(b.x + lb * b.tangent[0], b.y + lb * b.tangent[1]);
+      result.lower[k]
+          = dealii::Point<2>(a.x + la * a.tangent[0], a.y + la * a.tangent[1]);
+      result.upper[k]
+          = dealii::Point<2>(b.x + lb * b.tangent[0], b.y + lb * b.tangent[1]);
       const ContactPoint &point = pair.points[k];
       const double sigma        = point.area * point.normal_traction;
       const double tau          = point.area * point.shear_traction;
       const auto &[nx, ny]      = g.normal[k];
-      result.force[k]     = dealii::Point<2>(sigma * nx + tau * ny, sigma * ny - tau * nx);
+      result.force[k]
+          = dealii::Point<2>(sigma * nx + tau * ny, sigma * ny - tau * nx);
       const auto &[p, q]  = edges[pair.lower].points;
       result.reference[k] = dealii::Point<2>(p[0] + g.lower[k] * (q[0] - p[0]),
-                              p[1] + g.lower[k] * (q[1] - p[1]));
+                                             p[1] + g.lower[k] * (q[1] - p[1]));
       result.opening[k]   = g.opening[k];
       result.slip[k]      = slip(pair.points[k], i, g.normal[k]);
     }
@@ -166,9 +169,9 @@ namespace quoin
       const EdgeLanes<1> &edge = n < 2 ? a : b;
       const auto &f            = n < 2 ? force.a[n] : force.b[n - 2];
       const double distance    = n % 2 == 0 ? 0. : edge.length;
-      result.place[n]          = dealii::Point<2>(edge.x + distance * edge.tangent[0],
-                                   edge.y + distance * edge.tangent[1]);
-      result.force[n]          = dealii::Point<2>(f[0], f[1]);
+      result.place[n] = dealii::Point<2>(edge.x + distance * edge.tangent[0],
+                                         edge.y + distance * edge.tangent[1]);
+      result.force[n] = dealii::Point<2>(f[0], f[1]);
     }
     result.share = pair_weights[i].share;
     return true;

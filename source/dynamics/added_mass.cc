@@ -124,7 +124,8 @@ namespace quoin
 
   template <>
   void ScaledMasses<2>::find_beam_masses(const Model<2> &model, const double dt,
-                                         BeamMotion &beams, const State<2> &state)
+                                         BeamMotion &beams,
+                                         const State<2> &state)
   {
     beams.find_masses(dt, state);
     double eigenvalue                 = beams.largest_eigenvalue(state);
@@ -145,7 +146,8 @@ namespace quoin
 
   template <int dim>
   ScaledMasses<dim>::ScaledMasses(const Model<dim> &model,
-                                  const double time_step, BeamMotion *const beams,
+                                  const double time_step,
+                                  BeamMotion *const beams,
                                   const State<dim> &state)
     : nodes(model.mass())
   {

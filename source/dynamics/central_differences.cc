@@ -18,7 +18,6 @@ namespace quoin
     /** Factor of its coefficient in one step [-]. */
     constexpr double adaptive_change = 1.005;
 
-
   } // namespace
 
   template <int dim>

@@ -69,8 +69,7 @@ namespace quoin
       if (all.beams)
       {
         if (!beam_motion)
-          beam_motion
-              = std::make_unique<BeamMotion>(*all.beams, model.nodes());
+          beam_motion = std::make_unique<BeamMotion>(*all.beams, model.nodes());
         all.beams->begin_stage(stage.name, state);
       }
     const auto kinetic = [&]()
@@ -633,7 +632,8 @@ namespace quoin
     const RigidBlocks &rigid = model.rigid_blocks();
     const auto rigid_0       = state.template get<RigidBlockStates>();
     double energy            = 0.;
-    AlignedArray<dealii::Tensor<1, dim>> force(state.nodes.size(), dealii::Tensor<1, dim>());
+    AlignedArray<dealii::Tensor<1, dim>> force(state.nodes.size(),
+                                               dealii::Tensor<1, dim>());
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
       model.blocks().add_forces(tile, state.nodes.data(),
                                 state.template get<PlasticHistory>(),

@@ -13,7 +13,7 @@ namespace quoin
         are @p free; 0 elsewhere. */
     template <int dim>
     dealii::Tensor<2, dim> inverse_of_free(dealii::Tensor<2, dim> matrix,
-                                const std::array<bool, dim> &free)
+                                           const std::array<bool, dim> &free)
     {
       dealii::Tensor<2, dim> inverse;
       for (unsigned int d = 0; d < dim; ++d)
@@ -67,10 +67,10 @@ namespace quoin
                 [](const CapturedNode<dim> &other, const unsigned int number)
                 { return other.node < number; })
             - captured.begin();
-      CapturedNode<dim> &moving = captured[node.captured];
-      moving.has_added_mass     = true;
-      node.mass                 = each.mass;
-      dealii::Tensor<2, dim> all           = each.mass;
+      CapturedNode<dim> &moving  = captured[node.captured];
+      moving.has_added_mass      = true;
+      node.mass                  = each.mass;
+      dealii::Tensor<2, dim> all = each.mass;
       std::array<bool, dim> free;
       for (unsigned int d = 0; d < dim; ++d)
       {
@@ -90,7 +90,7 @@ namespace quoin
     const double h = context.dt_velocity, a = 0.5 * h * context.mass_damping;
     for (HeavyNode &each : heavy)
     {
-      CapturedNode<dim> &node  = captured[each.captured];
+      CapturedNode<dim> &node         = captured[each.captured];
       dealii::Tensor<1, dim> &v1      = state.velocity[node.node];
       const dealii::Tensor<1, dim> v0 = node.velocity;
       // Prescribed components accelerate the water, too.
@@ -107,8 +107,7 @@ namespace quoin
         for (unsigned int e = 0; e < dim; ++e)
           acceleration += each.inverse[d][e] * force[e];
         v1[d] = (1. - a) / (1. + a) * v0[d] + h / (1. + a) * acceleration;
-        state.nodes[node.node].u[d]
-            = node.displacement[d] + context.dt * v1[d];
+        state.nodes[node.node].u[d] = node.displacement[d] + context.dt * v1[d];
       }
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)

@@ -6,10 +6,11 @@
 namespace quoin
 {
   template <int dim>
-  double
-  kinetic_energy(const NodeMap<dim> &nodes, const std::vector<double> &mass,
-                 const AlignedArray<dealii::Tensor<1, dim>> &before,
-                 const AlignedArray<dealii::Tensor<1, dim>> &after, const double share)
+  double kinetic_energy(const NodeMap<dim> &nodes,
+                        const std::vector<double> &mass,
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after,
+                        const double share)
   {
     double kinetic = 0.;
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
@@ -72,16 +73,19 @@ namespace quoin
   template double kinetic_energy(const NodeMap<2> &,
                                  const std::vector<double> &,
                                  const AlignedArray<dealii::Tensor<1, 2>> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &, double);
+                                 const AlignedArray<dealii::Tensor<1, 2>> &,
+                                 double);
   template double kinetic_energy(const std::vector<NodeMass<2>> &,
                                  const AlignedArray<dealii::Tensor<1, 2>> &,
-                                 const AlignedArray<dealii::Tensor<1, 2>> &, double);
+                                 const AlignedArray<dealii::Tensor<1, 2>> &,
+                                 double);
   template double squared_change(const std::vector<NodeMass<2>> &,
                                  const AlignedArray<dealii::Tensor<1, 2>> &,
                                  const AlignedArray<dealii::Tensor<1, 2>> &);
   template double kinetic_energy(const std::vector<NodeMass<3>> &,
                                  const AlignedArray<dealii::Tensor<1, 3>> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &, double);
+                                 const AlignedArray<dealii::Tensor<1, 3>> &,
+                                 double);
   template double squared_change(const std::vector<NodeMass<3>> &,
                                  const AlignedArray<dealii::Tensor<1, 3>> &,
                                  const AlignedArray<dealii::Tensor<1, 3>> &);
@@ -92,7 +96,8 @@ namespace quoin
   template double kinetic_energy(const NodeMap<3> &,
                                  const std::vector<double> &,
                                  const AlignedArray<dealii::Tensor<1, 3>> &,
-                                 const AlignedArray<dealii::Tensor<1, 3>> &, double);
+                                 const AlignedArray<dealii::Tensor<1, 3>> &,
+                                 double);
   template double squared_change(const NodeMap<3> &,
                                  const std::vector<double> &,
                                  const AlignedArray<dealii::Tensor<1, 3>> &,

@@ -189,9 +189,7 @@ namespace quoin
     pack_blocks(construction);
     matched_joints.set_laws(now.joints);
     if (block_contacts)
-    {
       block_contacts->set_properties(now.joints, now.material_of_group);
-    }
     find_stable_step();
   }
 

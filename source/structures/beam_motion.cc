@@ -234,8 +234,7 @@ namespace quoin
         for (unsigned int d = 0; d < 2; ++d)
         {
           const double v = velocity_before[i][d];
-          energy
-              += 0.5 * mass[i] * v * (v + share * (now.velocity[i][d] - v));
+          energy += 0.5 * mass[i] * v * (v + share * (now.velocity[i][d] - v));
         }
     return energy;
   }

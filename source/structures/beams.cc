@@ -154,7 +154,8 @@ namespace quoin
   {
     BeamState &now = state.get<BeamState>();
     force.assign(n_nodes, dealii::Tensor<1, 2>());
-    AlignedArray<dealii::Tensor<1, 2>> by_point(n_points, dealii::Tensor<1, 2>());
+    AlignedArray<dealii::Tensor<1, 2>> by_point(n_points,
+                                                dealii::Tensor<1, 2>());
     now.stored_strain = now.stored_joint = 0.;
     find_block_positions(state, now);
     EnergyAccounts lost;
@@ -191,7 +192,8 @@ namespace quoin
     BeamState &now = state.get<BeamState>();
     find_block_positions(state, now);
     now.stored_strain = now.stored_joint = 0.;
-    AlignedArray<dealii::Tensor<1, 2>> by_point(n_points, dealii::Tensor<1, 2>());
+    AlignedArray<dealii::Tensor<1, 2>> by_point(n_points,
+                                                dealii::Tensor<1, 2>());
     EnergyAccounts energy;
     if (stiffness)
       stiffness->assign(beams.size(), Eigen::MatrixXd());
@@ -225,8 +227,9 @@ namespace quoin
                   MPI_SUM, node_map.communicator());
   }
 
-  void Beams::add_block_forces(const AlignedArray<dealii::Tensor<1, 2>> &by_point,
-                               dealii::Tensor<1, 2> *block_force) const
+  void
+  Beams::add_block_forces(const AlignedArray<dealii::Tensor<1, 2>> &by_point,
+                          dealii::Tensor<1, 2> *block_force) const
   {
     for (const auto &[line, interface] : beams)
       for (unsigned int k = 0; k < interface.points.size(); ++k)

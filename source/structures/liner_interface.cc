@@ -79,8 +79,8 @@ namespace quoin
     double way[2];
     for (unsigned int d = 0; d < 2; ++d)
       way[d] = beams.block_position[2 * p + d] - node.X[d] - node.u[d];
-    gap.opening = gap.normal[0] * way[0] + gap.normal[1] * way[1]
-                  - beams.offset[p][0];
+    gap.opening
+        = gap.normal[0] * way[0] + gap.normal[1] * way[1] - beams.offset[p][0];
     gap.slip = gap.tangent[0] * way[0] + gap.tangent[1] * way[1]
                - beams.offset[p][1];
     return gap;
@@ -137,7 +137,7 @@ namespace quoin
         for (const unsigned int begin : segments)
         {
           const BeamLine::Segment s = line.segment(begin, beams);
-          const double f   = couple / double(segments.size()) / s.length;
+          const double f          = couple / double(segments.size()) / s.length;
           dealii::Tensor<1, 2> &a = force[begin], &b = force[line.next(begin)];
           a[0] += f * s.direction[1];
           a[1] -= f * s.direction[0];

@@ -13,11 +13,11 @@ dimensions; the table says "yes" where there is no error.
 import argparse
 import concurrent.futures
 import os
-import subprocess
 import sys
 import tempfile
 
-from errors import ENVIRONMENT, HERE, prepare
+import errors
+from errors import HERE, prepare
 
 GUIDE = os.path.join(HERE, "..", "..", "doc", "user_guide.md")
 HEADING = "### What goes together"
@@ -159,11 +159,10 @@ def error_of(quoin, folder, name, feature, column):
     words = [quoin, os.path.join(folder, prm), "--check", "--quiet"]
     for setting in settings:
         words += ["--set", setting]
-    done = subprocess.run(words, env=ENVIRONMENT, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=120)
-    if done.returncode not in (0, 1):
-        raise RuntimeError(done.stdout)
-    return done.stdout.strip().split("\n")[-1] if done.returncode else ""
+    status, printed = errors.run(words)
+    if status not in (0, 1):
+        raise RuntimeError(printed)
+    return printed.strip().split("\n")[-1] if status else ""
 
 
 def rows_of_guide():
@@ -181,21 +180,24 @@ def main():
     parser.add_argument("--quoin", required=True, help="the executable")
     parser.add_argument("--print", action="store_true",
                         help="print the table, and the reason of each no")
+    parser.add_argument("--many-runs", help="the program many_runs, to save time")
     options = parser.parse_args()
     quoin = os.path.abspath(options.quoin)
+    if options.many_runs:
+        errors.many_runs = errors.ManyRuns(options.many_runs, quoin)
     with tempfile.TemporaryDirectory(prefix="quoin_") as folder, \
             concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         prepare(folder)
         tries = [[pool.submit(error_of, quoin, folder, name, feature, column)
                   for column in COLUMNS] for name, feature in FEATURES]
-        errors = [[each.result() for each in row] for row in tries]
+        messages = [[each.result() for each in row] for row in tries]
     rows = [["", *COLUMNS], ["---"] * (1 + len(COLUMNS))]
     rows += [[name] + ["no" if error else "yes" for error in row]
-             for (name, _), row in zip(FEATURES, errors)]
+             for (name, _), row in zip(FEATURES, messages)]
     if options.print:
         for row in rows:
             print("| %s |" % " | ".join(row).strip())
-        for (name, _), row in zip(FEATURES, errors):
+        for (name, _), row in zip(FEATURES, messages):
             for column, error in zip(COLUMNS, row):
                 if error:
                     print("%s, %s: %s" % (name, column, error))

@@ -271,9 +271,11 @@ class Build:
         # modules that are compiled as one file: that of each of their sources
         self.unity = {}
         for file in self.compile:
-            if file.startswith(self.folder) and "/Unity/" in file:
+            if file.startswith(self.folder) and "/Unity/" in file \
+                    and os.path.exists(file):
                 with open(file) as stream:
-                    for source in re.findall('#include "(.*)"', stream.read()):
+                    for source in re.findall(r'#include "(.*\.cc)"',
+                                             stream.read()):
                         self.unity[source] = file
 
     @staticmethod
@@ -327,8 +329,8 @@ class Build:
                 source = os.path.join(place, name)
                 os.makedirs(os.path.dirname(source), exist_ok=True)
                 with open(file) as stream, open(source, "w") as copy:
-                    copy.write(stream.read().replace(
-                        '"%s/source/' % ROOT, '"%s/source/' % tree))
+                    copy.write(stream.read().replace('"%s/' % ROOT,
+                                                     '"%s/' % tree))
             words[words.index("-c") + 1] = source
             words = ["-I" + os.path.join(tree, "include")
                      if word == "-I" + os.path.join(ROOT, "include") else word

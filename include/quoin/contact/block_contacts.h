@@ -253,7 +253,8 @@ namespace quoin
 
     std::uint64_t bound_search = -1; /**< search whose pairs are at hand */
     const unsigned int n_lanes;
-    AlignedArray<dealii::Tensor<1, 2>> compact_force, compact_viscous; /**< [N] */
+    AlignedArray<dealii::Tensor<1, 2>> compact_force,
+        compact_viscous; /**< [N] */
     // Pairs of the present step.
     std::vector<unsigned int> active_pairs, idle_pairs, new_contacts;
     std::vector<std::vector<unsigned int>> pairs_of_set; /**< active ones */

@@ -89,7 +89,8 @@ namespace quoin
     void gather_velocities(const dealii::Tensor<1, 2> *velocity);
     /** Adds what is in @p from, of the compact nodes, to nodes of own edges,
         and empties that. */
-    void scatter(AlignedArray<dealii::Tensor<1, 2>> &from, dealii::Tensor<1, 2> *to) const;
+    void scatter(AlignedArray<dealii::Tensor<1, 2>> &from,
+                 dealii::Tensor<1, 2> *to) const;
 
     /** The edges @p e, one for each lane. */
     template <int lanes>

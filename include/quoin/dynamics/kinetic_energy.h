@@ -18,10 +18,11 @@ namespace quoin
    * those of @p after [m/s]; @p mass of nodes [kg].
    */
   template <int dim>
-  double
-  kinetic_energy(const NodeMap<dim> &nodes, const std::vector<double> &mass,
-                 const AlignedArray<dealii::Tensor<1, dim>> &before,
-                 const AlignedArray<dealii::Tensor<1, dim>> &after, double share);
+  double kinetic_energy(const NodeMap<dim> &nodes,
+                        const std::vector<double> &mass,
+                        const AlignedArray<dealii::Tensor<1, dim>> &before,
+                        const AlignedArray<dealii::Tensor<1, dim>> &after,
+                        double share);
 
   /** Kinetic energy of the added @p masses alone [J]; arguments as above. */
   template <int dim>

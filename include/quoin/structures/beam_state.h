@@ -14,18 +14,18 @@ namespace quoin
   {
     static constexpr const char *slice_name = "beams";
 
-    AlignedArray<std::uint8_t> placed;    /**< flag of each beam */
-    AlignedArray<NodeRecord<2>> nodes;    /**< X: where they were placed */
+    AlignedArray<std::uint8_t> placed; /**< flag of each beam */
+    AlignedArray<NodeRecord<2>> nodes; /**< X: where they were placed */
     AlignedArray<dealii::Tensor<1, 2>> velocity; /**< at time - dt/2 */
-    AlignedArray<double> plastic;         /**< plastic turning angle [rad] */
-    AlignedArray<double> moment;          /**< of the last step [N m] */
-    AlignedArray<std::uint8_t> attached;  /**< flag of each interface point */
+    AlignedArray<double> plastic;        /**< plastic turning angle [rad] */
+    AlignedArray<double> moment;         /**< of the last step [N m] */
+    AlignedArray<std::uint8_t> attached; /**< flag of each interface point */
     /** Opening and slip at placement [m]. */
     AlignedArray<dealii::Tensor<1, 2>> offset;
     JointHistory interface; /**< of the interface points */
     // What the last step leaves behind.
-    AlignedArray<double> block_position; /**< x, y of these points [m] */
-    AlignedArray<dealii::Tensor<1, 2>> load;    /**< of equilibrium [N] */
+    AlignedArray<double> block_position;     /**< x, y of these points [m] */
+    AlignedArray<dealii::Tensor<1, 2>> load; /**< of equilibrium [N] */
     double stored_strain = 0., stored_joint = 0.; /**< [J] */
 
     template <typename Visitor>

@@ -48,7 +48,8 @@ namespace quoin
         point of all liners [N]. */
     double add_forces(const BeamLine &line, const State<2> &state,
                       BeamState &beams, EnergyAccounts &energy,
-                      dealii::Tensor<1, 2> *force, dealii::Tensor<1, 2> *by_point) const;
+                      dealii::Tensor<1, 2> *force,
+                      dealii::Tensor<1, 2> *by_point) const;
   };
 
   /** A beam or liner. */

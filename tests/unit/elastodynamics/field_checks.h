@@ -33,7 +33,8 @@ namespace quoin
         = (field.displacement(x, t + dt) - 2. * field.displacement(x, t)
            + field.displacement(x, t - dt))
           / (dt * dt);
-    const dealii::Tensor<1, 2> wanted = medium.density * 4. * h * h * acceleration;
+    const dealii::Tensor<1, 2> wanted
+        = medium.density * 4. * h * h * acceleration;
     return (force - wanted).norm() / wanted.norm();
   }
 
@@ -41,11 +42,10 @@ namespace quoin
    * How far the mean traction over [@p t0, @p t1] is from Hooke's law with
    * strains by central differences of displacements over @p h [m]. Relative.
    */
-  inline double traction_residual(const IncidentField &field,
-                                  const ElasticMedium &medium,
-                                  const dealii::Point<2> &x,
-                                  const dealii::Tensor<1, 2> &n, const double t0,
-                                  const double t1, const double h)
+  inline double
+  traction_residual(const IncidentField &field, const ElasticMedium &medium,
+                    const dealii::Point<2> &x, const dealii::Tensor<1, 2> &n,
+                    const double t0, const double t1, const double h)
   {
     const GaussRule &rule = gauss_legendre(20);
     dealii::Tensor<1, 2> mean;
@@ -55,9 +55,8 @@ namespace quoin
       dealii::Tensor<2, 2> slopes; // row j: derivative by x_j
       for (unsigned j = 0; j < 2; ++j)
       {
-        const dealii::Tensor<1, 2> step
-            = h * dealii::Point<2>::unit_vector(j);
-        slopes[j] = (field.displacement(x + step, t)
+        const dealii::Tensor<1, 2> step = h * dealii::Point<2>::unit_vector(j);
+        slopes[j]                       = (field.displacement(x + step, t)
                      - field.displacement(dealii::Point<2>(x - step), t))
                     / (2. * h);
       }

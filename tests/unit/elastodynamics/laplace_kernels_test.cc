@@ -100,7 +100,7 @@ TEST(LaplaceKernels, traction_is_of_the_damped_stress)
   for (const unsigned k : { 0u, 1u })
   {
     const dealii::Tensor<1, 2> e = dealii::Point<2>::unit_vector(k);
-    gradient[k]             = (8.
+    gradient[k]                  = (8.
                        * (kernels.displacement(d + h * e)
                           - kernels.displacement(d - h * e))
                    - kernels.displacement(d + 2. * h * e)
@@ -126,8 +126,8 @@ TEST(LaplaceKernels, static_limit)
 {
   const dealii::Point<2> d(0.6, -0.35);
   const double r = d.norm(), s = 1e-7;
-  const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
-  const dealii::Tensor<1, 2> e    = d / r;
+  const Eigen::Matrix2d unit   = Eigen::Matrix2d::Identity();
+  const dealii::Tensor<1, 2> e = d / r;
   const LaplaceKernels kernels(medium, s);
   EXPECT_LT(
       (kernels.traction(d, normal) - static_traction_kernel(medium, d, normal))

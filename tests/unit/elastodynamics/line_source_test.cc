@@ -37,7 +37,7 @@ namespace
 
 TEST(LineSource, TendsToTheStaticSolution)
 {
-  const dealii::Point<2> x = position + dealii::Point<2>(0.6, 0.8);
+  const dealii::Point<2> x     = position + dealii::Point<2>(0.6, 0.8);
   const dealii::Tensor<1, 2> u = source.displacement(x, 20.);
   const double wanted
       = 1e6 / (2. * M_PI * medium.density * medium.c1 * medium.c1);
@@ -86,9 +86,12 @@ TEST(LineSource, IsTheConvolutionOfTheStepSolution)
 TEST(LineSource, IsZeroBeforeItArrives)
 {
   const dealii::Point<2> x = position + dealii::Point<2>(3., 4.);
-  const double travel     = 5. / medium.c1;
+  const double travel      = 5. / medium.c1;
   EXPECT_EQ(source.displacement(x, 0.999 * travel).norm(), 0.);
-  EXPECT_EQ(source.mean_traction(x, dealii::Point<2>(1., 0.), 0., 0.999 * travel).norm(), 0.);
+  EXPECT_EQ(
+      source.mean_traction(x, dealii::Point<2>(1., 0.), 0., 0.999 * travel)
+          .norm(),
+      0.);
   EXPECT_FALSE(source.has_precursors());
 }
 
@@ -105,13 +108,13 @@ TEST(LineSource, SatisfiesTheEquationOfMotion)
 TEST(LineSource, TractionsAreThoseOfTheDisplacements)
 {
   const dealii::Point<2> x = position + dealii::Point<2>(9., -12.);
-  const double travel     = 15. / medium.c1;
+  const double travel      = 15. / medium.c1;
   for (const double after : { 0.3, 0.7, 1.2, 5. })
   {
     const double t = travel + after * rise;
-    EXPECT_LT(
-        traction_residual(source, medium, x, dealii::Point<2>(0.6, 0.8), t, t + 1e-4, 0.01),
-        1e-3)
+    EXPECT_LT(traction_residual(source, medium, x, dealii::Point<2>(0.6, 0.8),
+                                t, t + 1e-4, 0.01),
+              1e-3)
         << after;
   }
 }
@@ -123,14 +126,13 @@ TEST(LineSource, MomentThatIsSwitchedOn)
                         { 0., 0.01, 1e-6 });
   const double r = 5., travel = r / medium.c1, t = 2. * travel;
   const dealii::Point<2> x = position + dealii::Point<2>(r, 0.);
-  const double wanted     = 1e6 * t
+  const double wanted      = 1e6 * t
                         / (2. * M_PI * medium.density * medium.c1 * medium.c1
                            * r * std::sqrt(t * t - travel * travel));
   EXPECT_NEAR(step.displacement(x, t)[0], wanted, 1e-3 * wanted);
-  EXPECT_TRUE(std::isfinite(
-      step.mean_traction(x, dealii::Point<2>(1., 0.), 0.999 * travel,
-                         1.001 * travel)
-          .norm()));
+  EXPECT_TRUE(std::isfinite(step.mean_traction(x, dealii::Point<2>(1., 0.),
+                                               0.999 * travel, 1.001 * travel)
+                                .norm()));
 }
 
 TEST(LineSource, RefusesAnEmptyRange)

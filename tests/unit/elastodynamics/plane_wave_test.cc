@@ -79,8 +79,8 @@ TEST(PlaneWave, ImpedanceOnWavefrontsIsDensityTimesSpeed)
   const PlaneWave p(medium, PlaneWave::Type::P, false, -0.4, wavelet);
   const PlaneWave sv(medium, PlaneWave::Type::SV, false, -0.4, wavelet);
   const dealii::Point<2> origin;
-  const double zp              = medium.density * medium.c1;
-  const double zs              = medium.density * medium.c2;
+  const double zp = medium.density * medium.c1;
+  const double zs = medium.density * medium.c2;
   EXPECT_LT(
       (p.mean_traction(origin, direction, 0.1, 0.12) + zp * rate * direction)
           .norm(),
@@ -162,7 +162,8 @@ TEST(PlaneWave, SatisfiesTheEquationOfMotion)
            - 2. * free_field.displacement(x, t)
            + free_field.displacement(x, t - step))
           / (step * step);
-    const dealii::Tensor<1, 2> wanted = medium.density * 4. * h * h * acceleration;
+    const dealii::Tensor<1, 2> wanted
+        = medium.density * 4. * h * h * acceleration;
     EXPECT_LT((force - wanted).norm(), 3e-3 * wanted.norm()) << i.degrees;
   }
 }
@@ -185,7 +186,7 @@ TEST(PlaneWave, MeanTractionIsTheMeanOfTheTraction)
     for (unsigned j = 0; j < 2; ++j)
     {
       const dealii::Tensor<1, 2> step = h * dealii::Point<2>::unit_vector(j);
-      slopes[j] = (free_field.displacement(x + step, t)
+      slopes[j]                       = (free_field.displacement(x + step, t)
                    - free_field.displacement(dealii::Point<2>(x - step), t))
                   / (2. * h);
     }
@@ -198,8 +199,8 @@ TEST(PlaneWave, MeanTractionIsTheMeanOfTheTraction)
 
   // The rate of the displacement is the field of the signal's rate.
   const dealii::Tensor<1, 2> rate = (free_field.displacement(x, t1 + h)
-                                - free_field.displacement(x, t1 - h))
-                               / (2. * h);
+                                     - free_field.displacement(x, t1 - h))
+                                    / (2. * h);
   EXPECT_LT((rate - rates.displacement(x, t1)).norm(), 2e-3 * rate.norm());
 }
 
@@ -297,18 +298,22 @@ TEST(PlaneWave, BeyondTheCriticalAngleItIsAFreeField)
     const PlaneWave field(medium, PlaneWave::Type::SV, true, degrees * degree,
                           ricker, range);
     const double scale
-        = field.mean_traction({ 0., -1. }, dealii::Point<2>(1., 0.), 1.02, 1.021).norm();
+        = field
+              .mean_traction({ 0., -1. }, dealii::Point<2>(1., 0.), 1.02, 1.021)
+              .norm();
     for (double t = 0.8; t < 1.3; t += 0.05)
-      EXPECT_LT(field.mean_traction({ 3., 0. }, dealii::Point<2>(0., 1.), t, t + 1e-3).norm(),
-                1e-9 * scale)
+      EXPECT_LT(
+          field.mean_traction({ 3., 0. }, dealii::Point<2>(0., 1.), t, t + 1e-3)
+              .norm(),
+          1e-9 * scale)
           << degrees;
     for (const double y : { -0.5, -4. })
     {
       EXPECT_LT(motion_residual(field, medium, { 1.5, y }, 1.02, 0.02, 5e-4),
                 2e-3)
           << degrees << ' ' << y;
-      EXPECT_LT(traction_residual(field, medium, { 1.5, y }, dealii::Point<2>(0.6, 0.8), 1.,
-                                  1.01, 1e-3),
+      EXPECT_LT(traction_residual(field, medium, { 1.5, y },
+                                  dealii::Point<2>(0.6, 0.8), 1., 1.01, 1e-3),
                 1e-5)
           << degrees << ' ' << y;
     }

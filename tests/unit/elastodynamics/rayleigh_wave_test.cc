@@ -61,19 +61,21 @@ TEST(RayleighWave, ParticlesMoveBackwardsOnEllipses)
   EXPECT_LT(after[0], 0.);
   EXPECT_NEAR(-after[0] / std::exp(-std::pow(quarter / 0.2, 2)), 0.6812, 5e-3);
   const RayleighWave back(medium, false, cosine, range);
-  EXPECT_NEAR(back.displacement({ 0., 0. }, 1. + quarter)[0], -after[0],
-              1e-12);
+  EXPECT_NEAR(back.displacement({ 0., 0. }, 1. + quarter)[0], -after[0], 1e-12);
 }
 
 TEST(RayleighWave, SurfaceIsTractionFree)
 {
   const RayleighWave wave(medium, true, wavelet, range);
   const double scale
-      = wave.mean_traction({ 0., -1. }, dealii::Point<2>(1., 0.), 1.02, 1.021).norm();
+      = wave.mean_traction({ 0., -1. }, dealii::Point<2>(1., 0.), 1.02, 1.021)
+            .norm();
   for (const double x : { -10., 0., 7. })
     for (double t = 0.7; t < 1.4; t += 0.05)
-      EXPECT_LT(wave.mean_traction({ x, 0. }, dealii::Point<2>(0., 1.), t, t + 1e-3).norm(),
-                1e-9 * scale);
+      EXPECT_LT(
+          wave.mean_traction({ x, 0. }, dealii::Point<2>(0., 1.), t, t + 1e-3)
+              .norm(),
+          1e-9 * scale);
 }
 
 TEST(RayleighWave, SatisfiesTheEquationOfMotion)
@@ -92,8 +94,8 @@ TEST(RayleighWave, TractionsAreThoseOfTheDisplacements)
 {
   const RayleighWave wave(medium, true, wavelet, range);
   for (const double y : { -0.5, -3., -10. })
-    EXPECT_LT(traction_residual(wave, medium, { 1.5, y }, dealii::Point<2>(0.6, 0.8), 1.01,
-                                1.02, 3e-3),
+    EXPECT_LT(traction_residual(wave, medium, { 1.5, y },
+                                dealii::Point<2>(0.6, 0.8), 1.01, 1.02, 3e-3),
               1e-5);
 }
 

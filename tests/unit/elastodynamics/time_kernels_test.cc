@@ -16,7 +16,8 @@ namespace
   const ElasticMedium medium = ElasticMedium::from_young(2., 2.5, 0.25);
 
   TimeKernels at(const double time, const dealii::Tensor<1, 2> &distance,
-                 const dealii::Tensor<1, 2> &normal = dealii::Point<2>(0.6, 0.8))
+                 const dealii::Tensor<1, 2> &normal
+                 = dealii::Point<2>(0.6, 0.8))
   {
     return time_kernels(medium, time, distance, normal);
   }
@@ -54,12 +55,12 @@ TEST(TimeKernels, derivative_is_the_impulse_response)
   for (unsigned k = 0; k < 100; ++k)
   {
     const dealii::Point<2> x(u(random), u(random));
-    const double r    = x.norm();
-    const double T    = r / medium.c1 * (1.2 + 2. * std::abs(u(random)));
-    const double h    = 1e-4 * r;
-    const dealii::Tensor<1, 2> e  = x / r;
-    Matrix2d expected = Matrix2d::Zero();
-    bool near_front   = false;
+    const double r = x.norm();
+    const double T = r / medium.c1 * (1.2 + 2. * std::abs(u(random)));
+    const double h = 1e-4 * r;
+    const dealii::Tensor<1, 2> e = x / r;
+    Matrix2d expected            = Matrix2d::Zero();
+    bool near_front              = false;
     for (const double c : { medium.c1, medium.c2 })
     {
       near_front = near_front || std::abs(c * T - r) < 0.1 * r;
@@ -106,7 +107,7 @@ TEST(TimeKernels, tractions_belong_to_the_displacements)
     for (unsigned i = 0; i < 2; ++i)
     {
       const dealii::Tensor<1, 2> step = h * dealii::Point<2>::unit_vector(i);
-      gradient[i]         = (8. * (at(T, x + step).A - at(T, x - step).A)
+      gradient[i] = (8. * (at(T, x + step).A - at(T, x - step).A)
                      - (at(T, x + 2. * step).A - at(T, x - 2. * step).A))
                     / (12. * h);
     }
@@ -140,7 +141,7 @@ TEST(TimeKernels, static_limit)
   // two points.
   const auto kelvin = [](const dealii::Tensor<1, 2> &y) -> Matrix2d
   {
-    const double nu  = medium.poisson();
+    const double nu              = medium.poisson();
     const dealii::Tensor<1, 2> e = y / y.norm();
     return ((4. * nu - 3.) * std::log(y.norm()) * Matrix2d::Identity()
             + dyad(e, e))

@@ -124,9 +124,8 @@ TEST(BoundaryGeometry, Circles)
   boundary        = make({ hole }, 0.5);
   EXPECT_EQ(boundary.n_elements(), 26u); // 25.1 from the length
   EXPECT_GT(area(boundary), 0.);
-  EXPECT_NEAR(
-      std::atan2(boundary.elements[0].a[1], boundary.elements[0].a[0]), 0.1,
-      1e-14);
+  EXPECT_NEAR(std::atan2(boundary.elements[0].a[1], boundary.elements[0].a[0]),
+              0.1, 1e-14);
 }
 
 TEST(BoundaryGeometry, Polygons)

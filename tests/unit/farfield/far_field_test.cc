@@ -85,9 +85,9 @@ namespace
       {
         positions.push_back(captured.size());
         CapturedNode<2> before{};
-        before.node     = node;
-        before.mass     = 1e15;
-        before.velocity = velocity;
+        before.node         = node;
+        before.mass         = 1e15;
+        before.velocity     = velocity;
         before.displacement = state.nodes[node].u;
         before.owner[0] = before.owner[1] = far.get();
         captured.push_back(before);

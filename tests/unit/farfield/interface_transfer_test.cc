@@ -182,11 +182,8 @@ TEST(InterfaceTransfer, chords)
                                    gather_faces(*nodes, { false, true }));
   EXPECT_EQ(transfer.nodes().size(), n);
   Eigen::VectorXd means;
-  transfer.gather(
-      [](const unsigned int) {
-        return dealii::Point<2>(1., -2.);
-      },
-      means);
+  transfer.gather([](const unsigned int) { return dealii::Point<2>(1., -2.); },
+                  means);
   for (unsigned int e = 0; e < 8; ++e)
   {
     EXPECT_NEAR(means[2 * e], 1., 1e-14);

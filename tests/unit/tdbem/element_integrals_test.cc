@@ -31,8 +31,10 @@ namespace
         for (const double sign : { -1., 1. })
           kinks.push_back(sign * std::sqrt((c * time - d) * (c * time + d)));
     return integrate_adaptively(
-        [&](const double s) {
-          return time_kernels(medium, time, dealii::Point<2>(s, d), dealii::Point<2>(0., 1.));
+        [&](const double s)
+        {
+          return time_kernels(medium, time, dealii::Point<2>(s, d),
+                              dealii::Point<2>(0., 1.));
         },
         s1, s2, kinks, tolerance);
   }
@@ -113,8 +115,8 @@ TEST(ElementIntegrals, of_a_source_on_the_element)
     const double x          = 1e-8;
     const TimeKernels left  = quadrature(time, 0., s1, -x);
     const TimeKernels other = quadrature(time, 0., x, s2);
-    const TimeKernels at_x
-        = time_kernels(medium, time, dealii::Point<2>(x, 0.), dealii::Point<2>(0., 1.));
+    const TimeKernels at_x = time_kernels(medium, time, dealii::Point<2>(x, 0.),
+                                          dealii::Point<2>(0., 1.));
     const double q
         = 1. / (medium.c1 * medium.c1) + 1. / (medium.c2 * medium.c2);
     const Matrix2d gap
@@ -147,9 +149,9 @@ TEST(ElementIntegrals, static_limit)
             [](const double s)
             {
               return TimeKernels{ Matrix2d::Zero(),
-                                  static_traction_kernel(medium,
-                                                         dealii::Point<2>(s, 0.3),
-                                                         dealii::Point<2>(0., 1.)) };
+                                  static_traction_kernel(
+                                      medium, dealii::Point<2>(s, 0.3),
+                                      dealii::Point<2>(0., 1.)) };
             },
             -0.2, 1., 1e-14)
             .B;
@@ -168,7 +170,8 @@ TEST(ElementIntegrals, in_the_global_frame)
     const unsigned n = 20000;
     for (unsigned k = 0; k < n; ++k)
     {
-      const dealii::Tensor<1, 2> y = element.a + (element.b - element.a) * (k + 0.5) / n;
+      const dealii::Tensor<1, 2> y
+          = element.a + (element.b - element.a) * (k + 0.5) / n;
       const TimeKernels value
           = time_kernels(medium, time, y - source, element.normal());
       expected.A += element.length() / n * value.A;

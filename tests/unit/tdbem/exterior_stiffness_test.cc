@@ -107,7 +107,7 @@ TEST(ExteriorStiffness, SquareAroundAHoleUnderShear)
         = (4. * (1. - nu) / r - std::pow(r, -3)) * std::cos(2. * t),
         ut = -(2. * (1. - 2. * nu) / r + std::pow(r, -3)) * std::sin(2. * t);
     return dealii::Point<2>(ur * std::cos(t) - ut * std::sin(t),
-                    ur * std::sin(t) + ut * std::cos(t));
+                            ur * std::sin(t) + ut * std::cos(t));
   };
   const auto traction = [&](const BoundaryElement &element)
   {
@@ -131,8 +131,9 @@ TEST(ExteriorStiffness, SquareAroundAHoleUnderShear)
         square,
         [&](const BoundaryElement &e)
         {
-          return dealii::Point<2>((motion(e.a) + 4. * motion(e.middle()) + motion(e.b))
-                          / (12. * rock.mu()));
+          return dealii::Point<2>(
+              (motion(e.a) + 4. * motion(e.middle()) + motion(e.b))
+              / (12. * rock.mu()));
         });
     const VectorXd exact = on_boundary(square, traction);
     return (stiffness(square).traction * u - exact).norm() / exact.norm();

@@ -62,14 +62,13 @@ TEST(InteriorPoints, CavityUnderStepPressure)
   // Inverse transform of K_1(2 s) / (K_1(s) + kappa s K_0(s)) / s.
   const double exact[]
       = { 0., 0., 0., .213685, .381375, .587882, .661355, .526290 };
-  const auto u = displacements(boundary, record,
-                               { 2. * direction, dealii::Point<2>(0.3, -0.2) }, steps);
+  const auto u = displacements(
+      boundary, record, { 2. * direction, dealii::Point<2>(0.3, -0.2) }, steps);
   for (unsigned l = 0; l < steps.size(); ++l)
   {
     const auto value = vector_at(u.col(l), 0);
     EXPECT_NEAR(value * direction, exact[l], 0.66e-3) << steps[l];
-    EXPECT_NEAR(value[0] * direction[1] - value[1] * direction[0], 0.,
-                0.66e-3);
+    EXPECT_NEAR(value[0] * direction[1] - value[1] * direction[0], 0., 0.66e-3);
     // Outside of the domain.
     EXPECT_LT((u.block<2, 1>(2, l).norm()), 0.02) << steps[l];
   }
@@ -89,7 +88,8 @@ TEST(InteriorPoints, UniformMotionOfASquare)
       p[2 * e] = 1.;
   const unsigned n  = 160;
   const auto record = step_load(boundary, 0.125, n, p);
-  const auto u = displacements(boundary, record, { dealii::Point<2>(0.5, 0.5) }, { n });
+  const auto u
+      = displacements(boundary, record, { dealii::Point<2>(0.5, 0.5) }, { n });
   const double t     = 0.125 * n;
   const double whole = 0.5 * t * t / medium.density;
   EXPECT_NEAR(u(0, 0) / whole, 1., 0.01);
@@ -145,7 +145,8 @@ TEST(InteriorPoints, StaticUniformStrain)
     for (unsigned i = 0; i < 2; ++i)
     {
       conditions.displacement_known.push_back(fixed);
-      const dealii::Tensor<1, 2> of = fixed ? element.middle() : element.normal();
+      const dealii::Tensor<1, 2> of
+          = fixed ? element.middle() : element.normal();
       conditions.values[2 * e + i] = (i == 0 ? 1. : -1.) * of[i];
     }
   }

@@ -76,7 +76,7 @@ namespace
         const double begin = cuts[piece], end = cuts[piece + 1];
         const Point start = e.a + begin * (e.b - e.a);
         const Point stop  = end == 1. ? e.b : Point(e.a + end * (e.b - e.a));
-        const Vector half  = 0.5 * (end - begin) * (e.b - e.a);
+        const Vector half = 0.5 * (end - begin) * (e.b - e.a);
         if (end > begin)
           test::tanh_sinh(
               0., 1.,
@@ -163,9 +163,9 @@ TEST(LaplaceMatrices, self_integral)
                       [&](const double r, const double w)
                       {
                         if (r > 0.)
-                          reference
-                              += 2. * w * (galerkin ? 1. - r / 0.5 : 1.)
-                                 * kernels.displacement(Point(r * element.tangent()));
+                          reference += 2. * w * (galerkin ? 1. - r / 0.5 : 1.)
+                                       * kernels.displacement(
+                                           Point(r * element.tangent()));
                       });
       const auto matrices = laplace_matrices(boundary, medium, s, projection);
       EXPECT_LT((matrices.G - reference).norm(), 1e-13) << s;

@@ -31,8 +31,9 @@ namespace
         1. / elements_per_side, true);
   }
 
-  VectorXd pressure(const Boundary &boundary,
-                    const std::function<double(const dealii::Point<2> &)> &value)
+  VectorXd
+  pressure(const Boundary &boundary,
+           const std::function<double(const dealii::Point<2> &)> &value)
   {
     VectorXd p(boundary.n_unknowns());
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
@@ -45,8 +46,8 @@ namespace
   /** On the side x = 1/2. */
   VectorXd one_side(const Boundary &boundary)
   {
-    return pressure(boundary,
-                    [](const dealii::Point<2> &x) { return x[0] > 0.499 ? 1. : 0.; });
+    return pressure(boundary, [](const dealii::Point<2> &x)
+                    { return x[0] > 0.499 ? 1. : 0.; });
   }
 
   /** A marching and what it needs, its steps kept as columns. */
@@ -160,7 +161,8 @@ INSTANTIATE_TEST_SUITE_P(Formulations, StaticLimit,
 TEST_P(StaticLimit, of_given_tractions)
 {
   const Boundary boundary = square_hole(4);
-  const VectorXd all  = pressure(boundary, [](const dealii::Tensor<1, 2> &) { return 1.; });
+  const VectorXd all
+      = pressure(boundary, [](const dealii::Tensor<1, 2> &) { return 1.; });
   const auto p_static = solve_static(boundary, medium, Projection::galerkin,
                                      conditions(all, false));
   Solution run(boundary, 1., true, 400, GetParam());
@@ -258,7 +260,7 @@ TEST(TimeMarchingLimits, reciprocity)
     VectorXd first(boundary.n_unknowns()), second(boundary.n_unknowns());
     for (unsigned e = 0; e < boundary.n_elements(); ++e)
     {
-      const dealii::Point<2> x         = boundary.elements[e].middle();
+      const dealii::Point<2> x = boundary.elements[e].middle();
       set_vector<2>(first, e, dealii::Point<2>(1. + x[0], x[1] * x[1]));
       set_vector<2>(second, e, dealii::Point<2>(x[0] * x[1], std::exp(-x[0])));
     }
@@ -305,9 +307,10 @@ TEST(TimeMarchingLimits, pressure_on_one_side)
     const auto at_rest = solve_static(boundary, medium, Projection::galerkin,
                                       conditions(load, false));
     return dealii::Point<2>(opening(boundary, run.u.rightCols<1>()),
-                    opening(boundary, at_rest.displacement));
+                            opening(boundary, at_rest.displacement));
   };
-  const dealii::Tensor<1, 2> coarse = solve(6), middle = solve(12), fine = solve(24);
+  const dealii::Tensor<1, 2> coarse = solve(6), middle = solve(12),
+                             fine = solve(24);
   for (const unsigned k : { 0u, 1u })
   {
     // The corners leave order one.

@@ -132,11 +132,11 @@ TEST(TimeMarching, instantaneous_impedance)
   std::vector<unsigned> all(n);
   for (unsigned k = 0; k < n; ++k)
     all[k] = k;
-  const Eigen::MatrixXd Z      = dt * run.marching.condensed_matrix(all);
-  const unsigned e             = 4; // in the middle of a side
-  const auto normal = to_eigen(boundary.elements[e].normal());
-  const Eigen::Matrix2d local  = Z.block<2, 2>(2 * e, 2 * e);
-  const double along_normal    = normal.dot(local * normal);
+  const Eigen::MatrixXd Z     = dt * run.marching.condensed_matrix(all);
+  const unsigned e            = 4; // in the middle of a side
+  const auto normal           = to_eigen(boundary.elements[e].normal());
+  const Eigen::Matrix2d local = Z.block<2, 2>(2 * e, 2 * e);
+  const double along_normal   = normal.dot(local * normal);
   EXPECT_NEAR(along_normal / (medium.density * medium.c1), 1., 0.02);
   EXPECT_NEAR((local.trace() - along_normal) / (medium.density * medium.c2), 1.,
               0.02);
