@@ -55,7 +55,7 @@ namespace quoin
           = largest_eigenvalue_squared_frequency(cell, data.stiffness_of(c), 1.)
             * cell.area() * data.thickness_of(c) / 3.;
       for (const unsigned int node : data.cells[c])
-        for (unsigned int d = 0; d < 2; ++d)
+        for (const unsigned int d : { 0, 1 })
           stiffness[node][d] += share;
     }
   }

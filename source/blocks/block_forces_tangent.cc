@@ -17,12 +17,12 @@ namespace quoin
     const dealii::Tensor<1, 2> origin = records[nodes[0]].u;
     std::array<double, 4> H{};
     for (unsigned int i = 1; i < n_nodes; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const double u = records[nodes[i]].u[d] - origin[d];
-        H[2 * d] += u * gradients[i][0];
-        H[2 * d + 1] += u * gradients[i][1];
-      }
+    {
+      const dealii::Tensor<2, 2> part
+          = outer_product(records[nodes[i]].u - origin, gradients[i]);
+      for (unsigned int k = 0; k < 4; ++k)
+        H[k] += part[k / 2][k % 2];
+    }
     return H;
   }
 
@@ -37,14 +37,15 @@ namespace quoin
     const auto [a, b, c] = corners;
     const Triangle triangle(nodes[a], nodes[b], nodes[c]);
     CellPoint point;
-    point.n_nodes      = 3;
-    point.nodes        = { { a, b, c } };
-    const double det   = triangle.det;
-    point.gradients[1] = { { triangle.e2[1] / det, -triangle.e2[0] / det } };
-    point.gradients[2] = { { -triangle.e1[1] / det, triangle.e1[0] / det } };
-    for (unsigned int d = 0; d < 2; ++d)
-      point.gradients[0][d] = -point.gradients[1][d] - point.gradients[2][d];
-    point.area = triangle.area();
+    point.n_nodes    = 3;
+    point.nodes      = { { a, b, c } };
+    const double det = triangle.det;
+    point.gradients[1]
+        = dealii::Point<2>(triangle.e2[1] / det, -triangle.e2[0] / det);
+    point.gradients[2]
+        = dealii::Point<2>(-triangle.e1[1] / det, triangle.e1[0] / det);
+    point.gradients[0] = -point.gradients[1] - point.gradients[2];
+    point.area         = triangle.area();
     if (!data.quadratic)
       return point;
 
@@ -56,19 +57,16 @@ namespace quoin
     if (!is_inner)
       lambda[cell - first] = 2. / 3.;
     point.area = is_inner ? 0. : triangle.area() / 3.;
-    const std::array<std::array<double, 2>, 3> linear
+    const std::array<dealii::Tensor<1, 2>, 3> linear
         = { { point.gradients[0], point.gradients[1], point.gradients[2] } };
     point.n_nodes = 6;
     for (unsigned int i = 0; i < 3; ++i)
     {
       const unsigned int j = (i + 1) % 3;
       point.nodes[3 + i]   = data.cells[first + 3][i]; // between i and j
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        point.gradients[i][d] = (4. * lambda[i] - 1.) * linear[i][d];
-        point.gradients[3 + i][d]
-            = 4. * (lambda[i] * linear[j][d] + lambda[j] * linear[i][d]);
-      }
+      point.gradients[i]   = (4. * lambda[i] - 1.) * linear[i];
+      point.gradients[3 + i]
+          = 4. * (lambda[i] * linear[j] + lambda[j] * linear[i]);
     }
     return point;
   }
@@ -105,9 +103,9 @@ namespace quoin
       gradient      = stretched_gradient(gradient, q);
       for (unsigned int i = 0; i < point.n_nodes; ++i)
       {
-        const auto [x, y] = point.gradients[i];
-        point.gradients[i]
-            = { x + q[0] * x + q[2] * y, y + q[2] * x + q[1] * y };
+        const double x = point.gradients[i][0], y = point.gradients[i][1];
+        point.gradients[i] = dealii::Point<2>(x + q[0] * x + q[2] * y,
+                                              y + q[2] * x + q[1] * y);
       }
     }
     const CorotatedStrain strain(gradient);

@@ -16,7 +16,7 @@ namespace quoin
   {
     unsigned int n_nodes;
     std::array<unsigned int, 6> nodes;
-    std::array<std::array<double, 2>, 6> gradients;
+    std::array<dealii::Tensor<1, 2>, 6> gradients;
     double area;
 
     /** Displacement gradient [[11, 12], [21, 22]]. */

@@ -56,7 +56,7 @@ namespace quoin
       const double share = double(system.n_steps) / n;
       // Points far from the boundary, where waves arrive late, cost less: a
       // sample of points is taken.
-      const auto seconds = [&](const std::vector<Eigen::Vector2d> &points,
+      const auto seconds = [&](const std::vector<dealii::Point<2>> &points,
                                const std::vector<unsigned int> &steps)
       {
         constexpr std::size_t n_tried = 3;

@@ -164,8 +164,8 @@ namespace quoin
       for (const unsigned int i : owned)
       {
         sums[0] += model.mass()[i];
-        for (unsigned int d = 0; d < 2; ++d)
-          sums[1 + d] += model.mass()[i] * nodes.point(i)[d];
+        sums[1] += model.mass()[i] * nodes.point(i)[0];
+        sums[2] += model.mass()[i] * nodes.point(i)[1];
       }
       add_up();
       result.centroid = dealii::Point<2>(sums[1] / sums[0], sums[2] / sums[0]);

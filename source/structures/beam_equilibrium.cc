@@ -146,7 +146,7 @@ namespace quoin
                                          / line.at_rest(first).segment
                                          * tangents[first - line.begin];
           for (const unsigned int a : used)
-            for (unsigned int d = 0; d < 2; ++d)
+            for (const unsigned int d : { 0, 1 })
             {
               sum(a, 2 * b + d) += slope[a] * change[d];
               sum(a, 2 * (first - line.begin) + d) -= slope[a] * change[d];
@@ -212,7 +212,7 @@ namespace quoin
           }
           for (const auto &[q, w] : turning)
           {
-            for (unsigned int d = 0; d < 2; ++d)
+            for (const unsigned int d : { 0, 1 })
             {
               sum(q, 2 * at + d) -= w * terms.couple_by_gap[d];
               sum(2 * at + d, q) -= w * terms.force_by_angle[d];
@@ -265,7 +265,7 @@ namespace quoin
         coupling.block<2, 2>(2 * at, 2 * k) = part;
         forces.block<2, 2>(2 * k, 2 * at)   = part;
         for (const auto &[q, w] : turning)
-          for (unsigned int d = 0; d < 2; ++d)
+          for (const unsigned int d : { 0, 1 })
           {
             coupling(q, 2 * k + d) -= w * terms.couple_by_gap[d];
             forces(2 * k + d, q) -= w * terms.force_by_angle[d];

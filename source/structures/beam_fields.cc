@@ -28,9 +28,8 @@ namespace quoin
     {
       const unsigned int at = line.begin + i;
       const auto &node      = beams.nodes[at];
-      result.position.push_back(
-          { { node.X[0] + node.u[0], node.X[1] + node.u[1] } });
-      result.displacement.push_back({ { node.u[0], node.u[1] } });
+      result.position.push_back(node.position());
+      result.displacement.push_back(node.u);
       double angle;
       if (line.turning(at, beams, angle))
         now.moment[at] = line.moment(at, now, angle, now.plastic[at]);

@@ -213,13 +213,10 @@ namespace quoin
       const double stretch = s.length - s.rest;
       beams.stored_strain += 0.5 * axial_stiffness / s.rest * stretch * stretch;
       size += std::abs(axial);
-      const double f[2] = { axial * s.direction[0] + shear * s.direction[1],
-                            axial * s.direction[1] - shear * s.direction[0] };
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        force[a][d] += f[d];
-        force[b][d] -= f[d];
-      }
+      const dealii::Point<2> f(axial * s.direction[0] + shear * s.direction[1],
+                               axial * s.direction[1] - shear * s.direction[0]);
+      force[a] += f;
+      force[b] -= f;
     }
     return size;
   }
@@ -229,7 +226,7 @@ namespace quoin
                   const dealii::Tensor<1, 2> &acceleration) const
   {
     std::vector<Vector> result(places.size());
-    for (unsigned int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < acceleration.dimension; ++d)
     {
       const double by_length = given.distributed[d](time)
                                + given.density * given.area * acceleration[d];

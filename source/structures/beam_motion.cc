@@ -63,16 +63,12 @@ namespace quoin
         {
           const BeamLine::Segment &s = all[first - line.begin];
           const double sign          = first == i ? 1. : -1.;
-          const double n[2]
-              = { -s.direction[1] / s.length, s.direction[0] / s.length };
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            const double slope
-                = sign * n[d]
-                  - 0.5 * line.at_rest(i).curvature * s.direction[d];
-            b[line.next(first)][d] += slope;
-            b[first][d] -= slope;
-          }
+          const dealii::Point<2> n(-s.direction[1] / s.length,
+                                   s.direction[0] / s.length);
+          const Vector slope
+              = sign * n - 0.5 * line.at_rest(i).curvature * s.direction;
+          b[line.next(first)] += slope;
+          b[first] -= slope;
         }
         double sum = 0.;
         for (const auto &[node, direction] : b)
@@ -153,7 +149,7 @@ namespace quoin
       add_bound(line, now, result);
       for (unsigned int k = 0; k < interface.points.size(); ++k)
         if (now.attached[interface.first + k])
-          for (unsigned int d = 0; d < 2; ++d)
+          for (const unsigned int d : { 0, 1 })
             result[line.begin + interface.points[k].at][d]
                 += interface.stiffness_bound(k);
     }
@@ -188,7 +184,7 @@ namespace quoin
       {
         const Vector &load = loads[i - line.begin];
         work.applied += std::hypot(load[0], load[1]);
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < load.dimension; ++d)
         {
           given_before += load[d] * now.velocity[i][d];
           if (!line.held(i, d))
@@ -214,8 +210,7 @@ namespace quoin
                     inverse_mass.data(), factors, step.dt);
       }
       for (unsigned int i = line.begin; i < line.end; ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-          given_after += loads[i - line.begin][d] * now.velocity[i][d];
+        given_after += loads[i - line.begin] * now.velocity[i];
     }
     if (!is_first_rank)
       return Work();
@@ -231,11 +226,10 @@ namespace quoin
     double energy        = 0.;
     if (is_first_rank)
       for (unsigned int i = 0; i < mass.size(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double v = velocity_before[i][d];
-          energy += 0.5 * mass[i] * v * (v + share * (now.velocity[i][d] - v));
-        }
+      {
+        const Vector &v = velocity_before[i];
+        energy += 0.5 * mass[i] * (v * (v + share * (now.velocity[i] - v)));
+      }
     return energy;
   }
 
@@ -255,11 +249,7 @@ namespace quoin
     double sum           = 0.;
     if (is_first_rank)
       for (unsigned int i = 0; i < mass.size(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double change = now.velocity[i][d] - velocity_before[i][d];
-          sum += mass[i] * change * change;
-        }
+        sum += mass[i] * (now.velocity[i] - velocity_before[i]).norm_square();
     return sum;
   }
 
@@ -268,12 +258,11 @@ namespace quoin
     const BeamState &now = state.get<BeamState>();
     for (const auto &[line, interface] : beams.all())
       for (unsigned int i = line.begin; i < line.end; ++i)
-        for (const double u : now.nodes[i].u)
-          if (!(std::abs(u) < 1e100)) // a comparison with NaN is false
-            throw RunError(text_of(
-                "the motion of the beam '", line.given.name,
-                "' is no longer finite, found at time ", state.time,
-                " s. Look at its loads, or reduce 'Share of critical time "
-                "step'. The last checkpoint is kept."));
+        if (!(now.nodes[i].u.norm() < 1e100)) // false with NaN, too
+          throw RunError(text_of(
+              "the motion of the beam '", line.given.name,
+              "' is no longer finite, found at time ", state.time,
+              " s. Look at its loads, or reduce 'Share of critical time "
+              "step'. The last checkpoint is kept."));
   }
 } // namespace quoin

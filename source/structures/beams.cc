@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
@@ -90,7 +91,7 @@ namespace quoin
     now.placed.resize(beams.size(), 0);
     for (const auto &[line, interface] : beams)
       for (const dealii::Point<2> &p : line.places)
-        now.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+        now.nodes.push_back({ p, {} });
     now.velocity.resize(n_nodes, dealii::Tensor<1, 2>());
     now.plastic.resize(n_nodes, 0.);
     now.moment.resize(n_nodes, 0.);
@@ -132,8 +133,7 @@ namespace quoin
     for (const NodalLoad<2> *load : gravity_loads)
     {
       const auto amplitude = load->amplitude(time);
-      for (unsigned int d = 0; d < 2; ++d)
-        acceleration[d] += amplitude[d];
+      acceleration += vector_at(amplitude, 0);
     }
     return acceleration;
   }
@@ -168,8 +168,7 @@ namespace quoin
                              by_point.data());
         const auto loads = line.loads(step.begin, gravity(step.begin));
         for (unsigned int i = line.begin; i < line.end; ++i)
-          for (unsigned int d = 0; d < 2; ++d)
-            force[i][d] += loads[i - line.begin][d];
+          force[i] += loads[i - line.begin];
       }
     add_block_forces(by_point, forces.force);
     if (is_first_rank)
@@ -220,9 +219,8 @@ namespace quoin
       for (unsigned int k = 0; k < interface.points.size(); ++k)
         if (const unsigned int node = interface.points[k].node;
             node != NodeMap<2>::none)
-          for (unsigned int d = 0; d < 2; ++d)
-            result[2 * (interface.first + k) + d]
-                = state.nodes[node].X[d] + state.nodes[node].u[d];
+          set_vector<2>(result, interface.first + k,
+                        state.nodes[node].position());
     MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPI_DOUBLE,
                   MPI_SUM, node_map.communicator());
   }
@@ -235,7 +233,6 @@ namespace quoin
       for (unsigned int k = 0; k < interface.points.size(); ++k)
         if (const unsigned int node = interface.points[k].node;
             node != NodeMap<2>::none)
-          for (unsigned int d = 0; d < 2; ++d)
-            block_force[node][d] -= by_point[interface.first + k][d];
+          block_force[node] -= by_point[interface.first + k];
   }
 } // namespace quoin

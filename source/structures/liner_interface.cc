@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/joints/point_arrays.h>
 #include <quoin/structures/liner_interface.h>
@@ -34,8 +35,7 @@ namespace quoin
                  "them, or a later one, as its 'Stage'.");
       side = point.side;
       n_here[point.at] += 1;
-      for (unsigned int d = 0; d < 2; ++d)
-        sum[point.at][d] += beams.block_position[2 * (first + k) + d];
+      sum[point.at] += vector_at(beams.block_position, first + k);
     }
     if (line.given.is_liner())
       for (unsigned int i = 0; i < n_here.size(); ++i)
@@ -44,8 +44,7 @@ namespace quoin
           refuse("has no block in a part of it where the stage places the "
                  "liner. Place it before they are excavated, or line another "
                  "curve.");
-        for (unsigned int d = 0; d < 2; ++d)
-          beams.nodes[line.begin + i].X[d] = sum[i][d] / n_here[i];
+        beams.nodes[line.begin + i].X = sum[i] / double(n_here[i]);
       }
     for (unsigned int k = 0; k < points.size(); ++k)
       if (const unsigned int p = first + k; beams.attached[p])
@@ -56,7 +55,7 @@ namespace quoin
             law);
         beams.offset[p]    = dealii::Tensor<1, 2>();
         const Gap at_start = gap(line, k, beams);
-        beams.offset[p]    = { { at_start.opening, at_start.slip } };
+        beams.offset[p]    = dealii::Point<2>(at_start.opening, at_start.slip);
       }
   }
 
@@ -69,20 +68,14 @@ namespace quoin
     dealii::Tensor<1, 2> sum;
     for (const unsigned int begin : line.segments_at(at))
       sum += line.segment(begin, beams).direction;
-    const double size = std::hypot(sum[0], sum[1]);
     Gap gap;
-    gap.tangent[0]   = sum[0] / size;
-    gap.tangent[1]   = sum[1] / size;
-    gap.normal[0]    = -point.side * gap.tangent[1];
-    gap.normal[1]    = point.side * gap.tangent[0];
-    const auto &node = beams.nodes[at];
-    double way[2];
-    for (unsigned int d = 0; d < 2; ++d)
-      way[d] = beams.block_position[2 * p + d] - node.X[d] - node.u[d];
-    gap.opening
-        = gap.normal[0] * way[0] + gap.normal[1] * way[1] - beams.offset[p][0];
-    gap.slip = gap.tangent[0] * way[0] + gap.tangent[1] * way[1]
-               - beams.offset[p][1];
+    gap.tangent                    = sum / sum.norm();
+    gap.normal[0]                  = -point.side * gap.tangent[1];
+    gap.normal[1]                  = point.side * gap.tangent[0];
+    const dealii::Tensor<1, 2> way = vector_at(beams.block_position, p)
+                                     - beams.nodes[at].X - beams.nodes[at].u;
+    gap.opening = gap.normal * way - beams.offset[p][0];
+    gap.slip    = gap.tangent * way - beams.offset[p][1];
     return gap;
   }
 
@@ -118,15 +111,11 @@ namespace quoin
         }
         write_point(point, beams.interface, p);
         beams.stored_joint += area * law.stored_energy(point, now.opening);
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double f = area
-                           * (point.normal_traction * now.normal[d]
-                              + point.shear_traction * now.tangent[d]);
-          force[at][d] += f;
-          by_point[p][d] = f;
-          size += std::abs(f);
-        }
+        by_point[p] = area
+                      * (point.normal_traction * now.normal
+                         + point.shear_traction * now.tangent);
+        force[at] += by_point[p];
+        size += std::abs(by_point[p][0]) + std::abs(by_point[p][1]);
         // The frame turns with the segments at the node, by the mean of their
         // angles: what keeps the balance of moments and energy over a gap.
         const double couple

@@ -36,7 +36,7 @@ namespace quoin
 
   /** The nodal gradient b [1/m] on (T, B, h_1, h_2), for u_x and for u_y. */
   inline std::array<PlaneGradient, 2>
-  node_gradients(const std::array<double, 2> &b)
+  node_gradients(const dealii::Tensor<1, 2> &b)
   {
     return { { { { b[0], -b[1], b[0], b[1] } },
                { { b[1], b[0], -b[1], b[0] } } } };

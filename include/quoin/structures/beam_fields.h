@@ -15,9 +15,10 @@ namespace quoin
   /** Results of one beam at its nodes, of one beam of the spacing. */
   struct BeamFields
   {
-    std::vector<std::array<double, 2>> position, displacement;
-    std::vector<double> axial, shear, moment; /**< N, Q [N], M [N m] */
-    std::vector<double> plastic;              /**< plastic turning [rad] */
+    std::vector<dealii::Point<2>> position;         /**< [m] */
+    std::vector<dealii::Tensor<1, 2>> displacement; /**< [m] */
+    std::vector<double> axial, shear, moment;       /**< N, Q [N], M [N m] */
+    std::vector<double> plastic; /**< plastic turning [rad] */
     /** Stresses of the outer fibres [Pa], and the larger one of both by its
         strength [-]. */
     std::vector<double> least_stress, largest_stress, utilisation;

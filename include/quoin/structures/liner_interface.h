@@ -4,7 +4,7 @@
 #ifndef quoin_structures_liner_interface_h
 #define quoin_structures_liner_interface_h
 
-#include <quoin/joints/joint_parameters.h>
+#include <quoin/joint_laws/joint_parameters.h>
 #include <quoin/structures/beam_line.h>
 #include <quoin/structures/lined_boundary.h>
 
