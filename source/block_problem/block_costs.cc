@@ -106,7 +106,7 @@ namespace quoin
           [&]() { system.implicit_solver->try_iteration(state); },
           measuring_time / double(parameters.stages.size()),
           system.communicator);
-      const double n = system.implicit_solver->least_steps();
+      const double n = system.implicit_solver->steps().least_steps();
       log.message("stage ", parameters.stages[index].name, ": ",
                   seconds_text(seconds),
                   " for a matrix, its factors and solutions; ", n,
@@ -129,7 +129,7 @@ namespace quoin
         if (system.implicit_solver)
         {
           report_iterations(context, i, state);
-          state.time += system.implicit_solver->duration();
+          state.time += system.implicit_solver->steps().duration();
           continue;
         }
       context.steps.choose(parameters.stages[i]);

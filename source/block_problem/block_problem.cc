@@ -51,7 +51,7 @@ namespace quoin
                               const StageParameters &stage)
     {
       return text_of("stage ", stage.name, ": equilibrium up to the load time ",
-                     solver.duration(), " s, ", solver.n_unknowns(),
+                     solver.steps().duration(), " s, ", solver.n_unknowns(),
                      " degrees of freedom, ",
                      solver.is_direct() ? "LU factors"
                                         : "GMRES with multigrid");
@@ -142,7 +142,7 @@ namespace quoin
         if (system.water)
           run.log.messages(water_lines(*system.water));
         if (!system.model->reinforcement().empty())
-          run.log.message(system.model->reinforcement().text());
+          run.log.message(cable_text(system.model->reinforcement()));
       }
     run.log.warnings(
         model_advice(parameters, system.mesh_report, *system.model, state));
@@ -183,7 +183,7 @@ namespace quoin
       if (const ImplicitSolver *solver = system.implicit_solver)
       {
         run.log.message(unknowns_text(*solver, stage));
-        begun.time += solver->duration();
+        begun.time += solver->steps().duration();
         continue;
       }
       context.steps.choose(stage);

@@ -281,7 +281,7 @@ namespace quoin
   {
     return state.template get<ImplicitState>().released < 1.
                ? 0.
-               : state.load_time / system.implicit_solver->duration();
+               : state.load_time / system.implicit_solver->steps().duration();
   }
 
   template <int dim>

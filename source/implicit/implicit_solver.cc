@@ -1,36 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/loading/constraint_checks.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 #include <quoin/implicit/implicit_solver.h>
+#include <quoin/implicit/reactions.h>
+#include <quoin/implicit/rest_time.h>
+#include <quoin/implicit/worst_place.h>
+#include <quoin/loads/prescribed_motion.h>
+#include <quoin/model/free_bodies.h>
+#include <quoin/operators/archive.h>
 #include <quoin/water/joint_flow.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace quoin
 {
   namespace
   {
-    /** Factors of the step after a failure and, at most, after success. */
-    constexpr double cut         = 0.3;
-    constexpr double most_growth = 1.5;
-    /** Load step by the last one below which the path is followed. */
-    constexpr double path_share = 0.1;
-    /** Pseudo-time steps of a jump: drag is a typical stiffness over these. */
-    constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
-    constexpr double drag_growth = 2., drag_cut = 0.2;
+    /** Most steps of a jump. */
     constexpr unsigned int most_drag_steps = 500;
-    /** Path increment in a step of a jump, by the largest path step or, where a
-        search for the factor of safety asks whether the model goes on moving,
-        by the path of the jump so far. */
-    constexpr double most_flow = 1., safety_flow = 0.2;
-    /** Load step after a jump, by the last one. */
-    constexpr double jump_share = 0.3;
     /** Steps of a jump between trials without drag. */
     constexpr unsigned int trial_interval = 4;
-    /** Number of steps of a short jump. */
-    constexpr unsigned int short_way = 3;
     /** Displacement in a jump, by the model's size, that is a collapse. */
     constexpr double collapse_share = 0.05;
     /** Ratio of drag to applied force below which a jump may have ended. */
@@ -40,8 +35,6 @@ namespace quoin
     /** Way to the equilibrium behind a jump, by that of the jump, below which a
         search for the factor of safety takes it. */
     constexpr double near_share = 0.25;
-    /** Steps ahead on the path before return to load control. */
-    constexpr unsigned int steps_ahead = 5;
     /** Tolerated relative error of the path's length [-]. */
     constexpr double path_tolerance = 1e-3;
     /** Tolerated error of a controlled displacement, by its increment [-]. */
@@ -55,9 +48,231 @@ namespace quoin
     constexpr unsigned int most_cracks = 50;
     /** Least reduction of the unbalanced force by share of a correction. */
     constexpr double least_gain = 0.1;
+
+    /** Duration of a static stage with constant loads [s]. */
+    constexpr double resting_duration = 1.;
+
+    void refuse_dynamic_loads(const std::vector<LoadParameters> &loads)
+    {
+      for (const LoadParameters &load : loads)
+      {
+        const std::string what
+            = load.type == LoadType::viscous_boundary ? "a viscous boundary"
+              : load.type == LoadType::free_field     ? "a free field"
+                                                      : "";
+        if (!what.empty())
+          throw InputError("section 'Loads/" + load.name + "': 'Type' makes it "
+                           + what
+                           + ", which the implicit solver does not know. Take "
+                             "'Solver = explicit', or hold that boundary.");
+      }
+    }
   } // namespace
 
-  bool ImplicitSolver::find_correction(const Target &target,
+  ImplicitSolver::ImplicitSolver(Model<2> &model,
+                                 const std::vector<LoadParameters> &loads,
+                                 const ImplicitParameters &parameters,
+                                 const std::vector<std::string> &joint_sets,
+                                 std::unique_ptr<StaticFarField> far_field)
+    : Solver((refuse_dynamic_loads(loads), model), loads, nullptr,
+             std::move(far_field)),
+      parameters(parameters), own_steps(parameters),
+      path_sets(joint_sets.size(), parameters.path_joints.empty()),
+      set_names(joint_sets)
+  {
+    if (model.parameters().large_displacements)
+      throw InputError(
+          "section 'Contact': 'Displacements = large' asks for contacts that "
+          "form and end, which the implicit solver does not follow. Take "
+          "'small', or 'Solver = explicit'.");
+    for (const std::string &name : parameters.path_joints)
+    {
+      const auto found = std::find(joint_sets.begin(), joint_sets.end(), name);
+      if (found == joint_sets.end())
+        throw InputError("section 'Implicit': 'Path joints' names '" + name
+                         + "', which is no set of section 'Joints'.");
+      path_sets[found - joint_sets.begin()] = true;
+    }
+  }
+
+  void ImplicitSolver::prepare_stage(const State<2> &state)
+  {
+    stage_start = state.stage_start;
+    check_no_free_bodies(model, acting.constraints, stage.name, state);
+    refuse_shared_platens(model, acting.constraints, stage);
+    held_blocks = find_held_blocks(model, acting.constraints, stage);
+    hold_absent_blocks(state);
+    double duration = stage.duration;
+    bool rests      = false;
+    if (stage.end != StageEnd::time)
+    {
+      duration = std::max({ rest_time(acting, stage, stage_start),
+                            stage.minimum_duration, stage.release_duration });
+      rests    = duration == 0.;
+      if (rests)
+        duration = resting_duration;
+    }
+    acting.release = Release(
+        state, stage,
+        stage.release_duration >= 0. ? stage.release_duration : duration);
+    rests = rests && !acting.release.changes()
+            && !(all.water && all.water->changes(stage_start, duration));
+    own_steps.begin_stage(duration, rests, stage.safety.has_value());
+    dof_map = std::make_unique<DofMap>(model, acting.constraints, held_blocks,
+                                       state, acting.pattern != nullptr);
+    equilibrium = std::make_unique<Equilibrium>(
+        model, *dof_map, operators_with(acting.nodal), path_sets, stage_start,
+        all.far.elastostatic_acts ? all.far.elastostatic : nullptr,
+        acting.pattern.get(), all.beams.get().get());
+    // Multigrid gives no factor.
+    linear_solver = std::make_unique<LinearSolver>(
+        acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
+        model, *dof_map);
+    residual.reinit(dof_map->owned(), communicator);
+    slopes.by_advance = slopes.path_by_dof = correction = advanced = residual;
+    broken.assign(model.joints().n_points(), 0);
+  }
+
+  Equilibrium::Operators ImplicitSolver::operators_with(
+      const std::vector<const NodalLoad<2> *> &loads) const
+  {
+    Equilibrium::Operators result{ &model.joints(), &model.blocks() };
+    if (!model.reinforcement().empty())
+      result.push_back(&model.reinforcement());
+    result.insert(result.end(), loads.begin(), loads.end());
+    if (all.water && all.water->acts())
+      result.push_back(all.water);
+    result.push_back(&acting.release);
+    return result;
+  }
+
+  void ImplicitSolver::hold_absent_blocks(const State<2> &state)
+  {
+    const unsigned int first = model.nodes().blocks().n_deformable;
+    for (unsigned int b = 0; b < held_blocks.size(); ++b)
+      if (state.is_absent(model.nodes().blocks().parts[first + b].number))
+        held_blocks[b] = true;
+  }
+
+  void ImplicitSolver::prepare(State<2> &state) const
+  {
+    Solver::prepare(state);
+    state.add<ImplicitState>();
+  }
+
+  void ImplicitSolver::begin_stage(const StageParameters &new_stage,
+                                   const StageParameters *previous,
+                                   State<2> &state)
+  {
+    activate(new_stage, state);
+    ramp_gravity(previous, 0.);
+    prepare(state);
+    if (all.water)
+      all.water->begin_stage(stage.name, state);
+    if (all.beams)
+      all.beams->begin_stage(stage.name, state);
+    for (const auto &constraint : all.constraints)
+      if (!all.acts_in(*constraint, stage))
+        constraint->rest(state);
+    for (MotionConstraint<2> *constraint : acting.constraints)
+    {
+      constraint->set_mass(model.mass());
+      constraint->begin_stage(state,
+                              previous && all.acts_in(*constraint, *previous));
+    }
+    state.stage_start          = state.time;
+    state.stage_step           = 0;
+    state.load_time            = 0.;
+    state.load_rate            = 1.;
+    state.get<ImplicitState>() = ImplicitState();
+    begin_pattern(previous, state);
+    prepare_stage(state);
+    hold_what_is_out_of_balance(previous, state);
+  }
+
+  void ImplicitSolver::resume_stage(const StageParameters &resumed,
+                                    const StageParameters *previous,
+                                    State<2> &state)
+  {
+    activate(resumed, state);
+    if (all.water)
+      all.water->resume_stage(state);
+    ramp_gravity(previous, 0.);
+    for (MotionConstraint<2> *constraint : acting.constraints)
+      constraint->set_mass(model.mass());
+    if (state.get<ImplicitState>().jumps)
+    {
+      last_equilibrium = state;
+      std::istringstream archived(state.get<ImplicitState>().before_jump);
+      boost::archive::binary_iarchive archive(archived);
+      archive >> last_equilibrium;
+    }
+    state.get<ImplicitState>().before_jump.clear();
+    prepare_stage(state);
+  }
+
+  void ImplicitSolver::save(State<2> &state) const
+  {
+    Solver::save(state);
+    if (state.get<ImplicitState>().jumps)
+    {
+      std::ostringstream archived;
+      boost::archive::binary_oarchive archive(archived);
+      archive << last_equilibrium;
+      state.get<ImplicitState>().before_jump = archived.str();
+    }
+  }
+
+  void
+  ImplicitSolver::hold_what_is_out_of_balance(const StageParameters *previous,
+                                              State<2> &state)
+  {
+    ImplicitState &now = state.get<ImplicitState>();
+    now.released       = 1.;
+    now.step           = own_steps.first_load_step();
+    if (all.far.elastostatic_acts && !state.get<StaticFarFieldState>().active)
+    {
+      // It holds the forces that its boundary carried until now, without loads
+      // that begin here.
+      std::vector<const NodalLoad<2> *> before;
+      for (const NodalLoad<2> *load : acting.nodal)
+        if (previous && names_load(*previous, load->name()))
+          before.push_back(load);
+      Equilibrium without(model, *dof_map,
+                          operators_with(previous ? before : acting.nodal),
+                          path_sets, stage_start, nullptr);
+      without.find_forces(state, configuration_of(dof_map->bodies(), state),
+                          broken, balance);
+      all.far.elastostatic->hold(balance.force.data(), state);
+    }
+    equilibrium->find_forces(state, configuration_of(dof_map->bodies(), state),
+                             broken, balance);
+    if (balance.ratio() <= parameters.force_ratio)
+      return;
+    now.released               = 0.;
+    now.step                   = parameters.first_step;
+    const unsigned int n_owned = model.nodes().n_owned();
+    for (unsigned int i = 0; i < n_owned; ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i][d]
+                                                  : 0.);
+    const auto forces
+        = body_forces(dof_map->bodies(), balance.force, communicator);
+    now.held_blocks.resize(3 * std::size_t(model.rigid_blocks().n_blocks()));
+    for (unsigned int b = 0; b < forces.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const RigidBody &body = dof_map->bodies()[b];
+        const double held
+            = body.given[d] ? 0. : -forces[b][d] - balance.drives[b][d];
+        if (body.platen)
+          now.held_platens.push_back(held);
+        else
+          now.held_blocks[3 * body.rigid_block + d] = held;
+      }
+  }
+
+  bool ImplicitSolver::find_correction(const StepTarget &target,
                                        const Configuration &configuration,
                                        const bool is_first, double &share)
   {
@@ -159,7 +374,7 @@ namespace quoin
   }
 
   ImplicitSolver::Outcome ImplicitSolver::iterate(const State<2> &state,
-                                                  const Target &target,
+                                                  const StepTarget &target,
                                                   Configuration &configuration)
   {
     std::vector<double> ratios;
@@ -232,11 +447,11 @@ namespace quoin
   {
     const Configuration configuration
         = configuration_of(dof_map->bodies(), state);
-    const Target target = choose_target(state);
-    double share        = 0.;
-    advance.load_time   = target.load_time;
-    advance.released    = target.released;
-    advance.on_path     = target.path > 0.;
+    const StepTarget target = own_steps.target(state);
+    double share            = 0.;
+    advance.load_time       = target.load_time;
+    advance.released        = target.released;
+    advance.on_path         = target.path > 0.;
     equilibrium->linearise(state, configuration, broken, advance, balance,
                            slopes);
     find_correction(target, configuration, true, share);
@@ -262,7 +477,7 @@ namespace quoin
   }
 
   ImplicitSolver::Outcome ImplicitSolver::solve(const State<2> &state,
-                                                const Target &target,
+                                                const StepTarget &target,
                                                 Configuration &configuration)
   {
     configuration = configuration_of(dof_map->bodies(), state);
@@ -303,25 +518,6 @@ namespace quoin
                                                  : Outcome::converged;
   }
 
-  ImplicitSolver::Target
-  ImplicitSolver::choose_target(const State<2> &state) const
-  {
-    const ImplicitState &now = state.get<ImplicitState>();
-    if (now.jumps)
-      return { now.jump_time, 1., 0. };
-    if (now.released < 1.)
-    {
-      const double next = now.released + now.step;
-      return { state.load_time, next > 1. - 1e-9 ? 1. : next, 0. };
-    }
-    double next = state.load_time + now.step * stage_duration;
-    if (now.follows_path)
-      return { next, 1., now.path_step };
-    if (next > stage_duration * (1. - 1e-9))
-      next = stage_duration;
-    return { next, 1., 0. };
-  }
-
   void ImplicitSolver::step(State<2> &state)
   {
     current_step = state.step;
@@ -330,18 +526,18 @@ namespace quoin
     Configuration configuration;
     for (attempt = 0;; ++attempt)
     {
-      const Target target = choose_target(state);
+      const StepTarget target = own_steps.target(state);
       equilibrium->set_drag(state.get<ImplicitState>().jumps
                                 ? 1. / state.get<ImplicitState>().drag_step
                                 : 0.);
       Outcome outcome = solve(state, target, configuration);
       if (outcome == Outcome::converged && target.path > 0.
-          && configuration.load_time > stage_duration)
+          && configuration.load_time > own_steps.duration())
       {
         // The end of the stage is near: load control to reach it exactly.
         state.get<ImplicitState>().follows_path = false;
         state.get<ImplicitState>().step
-            = (stage_duration - state.load_time) / stage_duration;
+            = (own_steps.duration() - state.load_time) / own_steps.duration();
         continue;
       }
       // Also in a jump joints must not yield too far in one step. A load step
@@ -349,12 +545,12 @@ namespace quoin
       // tilt holds them: it is none of the path that the loads follow.
       const double most
           = state.get<ImplicitState>().jumps
-                ? most_jump_path(state.get<ImplicitState>())
+                ? own_steps.most_jump_path(state.get<ImplicitState>())
                 : collapse_share * model.nodes().table().diagonal();
       if (outcome == Outcome::converged && std::abs(balance.path) <= most)
         break;
       ++done.n_cuts;
-      if (!cut_step(state))
+      if (!own_steps.cut(equilibrium->measures_path(), state))
         give_up(state);
     }
     const State<2> before = state;
@@ -362,7 +558,7 @@ namespace quoin
     if (state.get<ImplicitState>().jumps)
       go_on_jumping(before, state);
     else
-      adapt_step(before, state);
+      own_steps.adapt(before, iteration, balance.path, state);
   }
 
   void ImplicitSolver::go_on_jumping(const State<2> &before, State<2> &state)
@@ -378,17 +574,15 @@ namespace quoin
             && largest_move(last_equilibrium.nodes, state.nodes)
                    > collapse_share * model.nodes().table().diagonal()))
       give_up(state);
-    if (iteration <= parameters.wanted_iterations
-        && std::abs(balance.path) < most_jump_path(now) / drag_growth)
-      now.drag_step *= drag_growth;
+    own_steps.adapt_jump(iteration, balance.path, now);
     // Trials without drag cost as much as steps: at first, then at intervals.
     if (balance.dragged > jump_ends * balance.applied
-        || (now.n_drag > short_way && now.n_drag % trial_interval != 0))
+        || (!own_steps.is_short(now) && now.n_drag % trial_interval != 0))
       return;
     // Near an equilibrium: test whether it is one without drag.
     equilibrium->set_drag(0.);
     Configuration configuration;
-    const Target target{ now.jump_time, 1., 0. };
+    const StepTarget target{ now.jump_time, 1., 0. };
     if (solve(state, target, configuration) == Outcome::failed)
       return;
     // Whether the model would have come to an equilibrium that lies far ahead
@@ -398,23 +592,10 @@ namespace quoin
                > near_share * largest_move(last_equilibrium.nodes, state.nodes))
       return;
     commit(configuration, state);
-    now.jumps     = false;
-    now.path_step = 0.;
-    // After a short jump the equilibrium is the next one on the same path.
-    const double next
-        = now.last_step * (now.n_drag <= short_way ? most_growth : jump_share);
-    now.last_step = std::clamp(next, 0.01 * parameters.first_step,
-                               parameters.largest_step);
-    now.step      = now.last_step;
+    own_steps.end_jump(now);
     done.jumps.push_back(
         { now.jump_time, now.n_drag,
           dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
-  }
-
-  double ImplicitSolver::most_jump_path(const ImplicitState &now) const
-  {
-    const double most = most_flow * parameters.largest_path_step;
-    return stage.safety ? std::max(most, safety_flow * now.drag_path) : most;
   }
 
   double
@@ -439,108 +620,84 @@ namespace quoin
   void ImplicitSolver::move_against_drag(State<2> &state)
   {
     last_equilibrium = state;
-    begin_jump(state);
+    own_steps.begin_jump(state);
   }
 
-  bool ImplicitSolver::begin_jump(State<2> &state) const
+  void ImplicitSolver::commit(const Configuration &configuration,
+                              State<2> &state)
   {
-    ImplicitState &now = state.get<ImplicitState>();
-    // A search for the factor of safety asks whether the model keeps moving.
-    if (!stage.safety && (!parameters.jumps || now.released < 1.))
-      return false;
-    now.follows_path = false;
-    now.jumps        = true;
-    now.n_drag       = 0;
-    now.drag_time    = 0.;
-    now.drag_path    = 0.;
-    now.jump_loss    = 0.;
-    now.drag_step    = first_drag_step;
-    now.jump_time    = std::min(
-           stage_duration, state.load_time
-                               + std::max({ now.step, jump_share * now.last_step,
-                                            2. * parameters.smallest_step })
-                                     * stage_duration);
-    return true;
+    EnergyAccounts done = balance.state.energy;
+    book_work(model, *dof_map,
+              all.far.elastostatic_acts ? all.far.elastostatic : nullptr, state, start,
+              configuration, balance, done);
+    state.energy += done;
+    const double went = std::abs(configuration.load_time - state.load_time);
+
+    write_configuration(dof_map->bodies(), configuration, state);
+    state.copy_slices(balance.state);
+    if (all.water)
+      all.water->commit(state);
+    RigidBlockStage rigid;
+    rigid.held = held_blocks;
+    model.rigid_blocks().follow_nodes(rigid, state);
+    state.unbalanced_ratio = balance.ratio();
+    if (ImplicitState &now = state.get<ImplicitState>(); now.released == 1.)
+      for (auto *held : { &now.held, &now.held_platens, &now.held_blocks })
+        held->clear();
+    ++state.step;
+    ++state.stage_step;
+    // Time also advances while the load time decreases.
+    state.time += went;
+    if (state.load_time == own_steps.duration()
+        && state.get<ImplicitState>().path_length == 0. && balance.path == 0.)
+      state.time = state.stage_start + own_steps.duration();
+    if (all.far.elastostatic_acts)
+      state.get<StaticFarFieldState>().stored = balance.far_field_energy;
+    EnergyAccounts stored;
+    for (const ForceOperator<2> *each : operators_with(acting.nodal))
+      each->add_stored_energy(state, stored);
+    if (all.beams)
+      all.beams->add_stored_energy(state, stored);
+    find_energies(state, stored);
   }
 
-  bool ImplicitSolver::cut_step(State<2> &state) const
+  std::array<double, 3> ImplicitSolver::resultant(const std::string &load) const
   {
-    ImplicitState &now = state.get<ImplicitState>();
-    if (now.jumps)
-    {
-      now.drag_step *= drag_cut;
-      return now.drag_step > least_drag_step;
-    }
-    if (now.follows_path)
-    {
-      now.path_step *= cut;
-      now.step *= cut;
-      return now.path_step
-                 > path_share * path_share * parameters.largest_path_step
-             || begin_jump(state);
-    }
-    const double last_step
-        = std::max(now.last_step, 0.1 * parameters.first_step);
-    now.step *= cut;
-    if (parameters.path != PathFollowing::never && now.released == 1.
-        && equilibrium->measures_path() && now.step < path_share * last_step)
-    {
-      now.follows_path = true;
-      now.ahead        = 0;
-      now.step         = 0.5 * last_step;
-      now.path_step    = now.path_step > 0.
-                             ? 0.5 * now.path_step
-                             : path_share * parameters.largest_path_step;
-      return true;
-    }
-    if (now.step < path_share * last_step && begin_jump(state))
-      return true;
-    return now.step >= parameters.smallest_step;
+    for (const MotionConstraint<2> *constraint : acting.constraints)
+      if (constraint->name() == load && !balance.force.empty())
+        return reaction(model, *dof_map, all.far.elastostatic, balance,
+                        *constraint);
+    return {};
   }
 
-  void ImplicitSolver::adapt_step(const State<2> &before, State<2> &state) const
+  void ImplicitSolver::fail(const State<2> &state, const double tried,
+                            const bool jumped) const
   {
-    ImplicitState &now = state.get<ImplicitState>();
-    const double went
-        = before.get<ImplicitState>().released < 1.
-              ? now.released - before.get<ImplicitState>().released
-              : (state.load_time - before.load_time) / stage_duration;
-    const double growth
-        = std::min(most_growth, std::sqrt(double(parameters.wanted_iterations)
-                                          / std::max(1U, iteration)));
-    if (before.get<ImplicitState>().released < 1.)
-    {
-      now.step = std::min(growth * std::max(went, now.step),
-                          parameters.largest_step);
-      if (now.released == 1.)
-        now.step = first_load_step();
-      return;
-    }
-    now.path_length += balance.path;
-    now.farthest = std::max(now.farthest, state.load_time);
-    if (now.follows_path)
-    {
-      const double longer
-          = std::min(growth, parameters.largest_path_step / now.path_step);
-      now.path_step *= longer;
-      // Loads advance first, so that joints yield; the path then decides.
-      now.step
-          = std::clamp(longer * std::abs(went), 0.01 * parameters.first_step,
-                       parameters.largest_step);
-      now.ahead
-          = went > 0. && state.load_time >= now.farthest ? now.ahead + 1 : 0;
-      if (now.ahead > steps_ahead && parameters.path != PathFollowing::always)
-        now.follows_path = false;
-    }
-    else
-    {
-      now.path_step = std::min(balance.path, parameters.largest_path_step);
-      now.last_step = went;
-      now.step      = std::min(growth * std::max(went, now.step),
-                               parameters.largest_step);
-      if (parameters.path == PathFollowing::always
-          && balance.path > 1e-3 * parameters.largest_path_step)
-        now.follows_path = true;
-    }
+    acting.check_finite(stage, state, state.load_time);
+    acting.check_finite(stage, state,
+                        state.load_time + tried * own_steps.duration());
+    const std::string where = worst_place(model, *dof_map, balance, set_names);
+    std::ostringstream message;
+    message << "no equilibrium was found beyond "
+            << (state.get<ImplicitState>().released < 1.
+                    ? number_text(100. * state.get<ImplicitState>().released)
+                          + " % of what was out of balance at the start"
+                    : "the load time " + number_text(state.load_time) + " of "
+                          + number_text(own_steps.duration()) + " s")
+            << (jumped ? ", and the model kept moving when it was released "
+                         "against a viscous drag, after steps were reduced to "
+                       : ", although steps were reduced to ")
+            << number_text(tried)
+            << " of the stage. Forces are out of balance most " << where
+            << ". The model may have reached its limit load there"
+            << (parameters.path == PathFollowing::never
+                    ? ": 'Path following = automatic' in section 'Implicit' "
+                      "could follow it down"
+                    : "")
+            << "; otherwise lower 'Largest step', raise 'Maximum "
+               "iterations', or look at the strengths of those joints. The "
+               "last equilibrium is kept.";
+    throw ModelFailure(message.str());
   }
+
 } // namespace quoin

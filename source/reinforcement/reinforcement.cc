@@ -3,24 +3,17 @@
 
 #include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/base/number_text.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/operators/archive.h>
 #include <quoin/reinforcement/reinforcement.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <sstream>
 
 namespace quoin
 {
   namespace
   {
-    /** Distance by which parts of a bar in two blocks may be apart or overlap
-        at a joint, and its ends outside of blocks, by its length [-]. */
-    constexpr double touch_tolerance = 1e-6, end_tolerance = 1e-3;
-
     using Vector = std::array<double, 2>;
 
     double dot(const Vector &a, const Vector &b)
@@ -34,92 +27,32 @@ namespace quoin
       return { { -a[1], a[0] } };
     }
 
-    /** Part of a bar in one block, as shares of its length. */
-    struct Run
+    Vector relative(const BarHost &near, const BarHost &far,
+                    const NodeRecord<2> *nodes)
     {
-      unsigned int block;
-      double begin, end;
-    };
-
-    std::vector<Run> runs_of(const std::vector<CrossedCell> &cells,
-                             const std::string &where)
-    {
-      std::vector<Run> runs;
-      for (const CrossedCell &cell : cells)
-        if (!runs.empty() && runs.back().block == cell.block)
-          runs.back().end = std::max(runs.back().end, cell.end);
-        else
-        {
-          if (!runs.empty() && cell.begin < runs.back().end - touch_tolerance)
-            throw InputError(where
-                             + " runs along a joint: the two blocks beside it "
-                               "would share it. Move it into one of them.");
-          runs.push_back({ cell.block, cell.begin, cell.end });
-        }
-      return runs;
+      const Vector a = displacement(near, nodes), b = displacement(far, nodes);
+      return { { b[0] - a[0], b[1] - a[1] } };
     }
 
-    /** A node of a bar, and whether the element before it is bonded. */
-    struct BarNode
+    /** Takes a bar out of blocks that are absent: all of it where its far end
+        is. */
+    void lose_absent(const Bar &bar, const State<2> &state, BarState &now)
     {
-      double at; /**< share of the length */
-      unsigned int block;
-      bool bonded;
-    };
-
-    std::vector<BarNode> place_nodes(const std::vector<Run> &runs,
-                                     const CableParameters &cable,
-                                     const double length)
-    {
-      std::vector<BarNode> nodes{ { runs.front().begin, runs.front().block,
-                                    false } };
-      const double free = cable.free_length / length;
-      if (cable.law.bond_stiffness == 0. || free >= 1. - touch_tolerance)
-      {
-        nodes.push_back({ runs.back().end, runs.back().block, false });
-        return nodes;
-      }
-      const double gap = 0.5 * cable.law.active_length / length;
-      for (unsigned int r = 0; r < runs.size(); ++r)
-      {
-        if (runs[r].end <= free + touch_tolerance)
-          continue;
-        double begin       = std::max(runs[r].begin, free);
-        double end         = runs[r].end;
-        const double third = (end - begin) / 3.;
-        // Where a free length ends at the joint the bond begins there.
-        if (r > 0 && runs[r].begin > free + touch_tolerance)
-          begin += std::min(gap, third);
-        if (r + 1 < runs.size())
-          end -= std::min(gap, third);
-        if (begin > nodes.front().at + touch_tolerance)
-          nodes.push_back({ begin, runs[r].block, false });
-        const auto n = std::max(
-            1.,
-            std::ceil((end - begin) * length / cable.element_length - 1e-9));
-        for (unsigned int i = 1; i <= n; ++i)
-          nodes.push_back(
-              { begin + (end - begin) * i / n, runs[r].block, true });
-      }
-      return nodes;
-    }
-
-    const CrossedCell &cell_at(const std::vector<CrossedCell> &cells,
-                               const double at, const unsigned int block)
-    {
-      const CrossedCell *best = nullptr;
-      double least            = 0.;
-      for (const CrossedCell &cell : cells)
-        if (cell.block == block)
+      const std::size_t last = bar.hosts.size() - 1;
+      const bool is_gone     = state.is_absent(bar.hosts[last].block);
+      for (std::size_t i = 0; i <= last; ++i)
+        if (is_gone || state.is_absent(bar.hosts[i].block))
         {
-          const double outside = std::max(cell.begin - at, at - cell.end);
-          if (!best || outside < least)
-          {
-            best  = &cell;
-            least = outside;
-          }
+          now.lost[i] = 1;
+          if (i > 0)
+            now.broken[i - 1] = 1;
+          if (i < last)
+            now.broken[i] = 1;
         }
-      return *best;
+      for (std::size_t d = 0; d < bar.dowels.size(); ++d)
+        if (is_gone || state.is_absent(bar.dowels[d].near.block)
+            || state.is_absent(bar.dowels[d].far.block))
+          now.dowel_broken[d] = 1;
     }
   } // namespace
 
@@ -142,127 +75,12 @@ namespace quoin
     {
       has_friction = has_friction || cables[c].law.bond_friction > 0.;
       for (const BarEnds &ends : cables[c].bars)
-        add_bar(ends, c, crossed[segment++], thickness);
-    }
-  }
-
-  void Reinforcement::add_bar(const BarEnds &ends, const unsigned int cable,
-                              const std::vector<CrossedCell> &crossed,
-                              const Thickness &thickness)
-  {
-    const CableParameters &given = cables[cable];
-    const auto text              = [](const Vector &p)
-    { return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ")"; };
-    const std::string where = "section 'Reinforcement/" + given.name
-                              + "': the bar from " + text(ends[0]) + " to "
-                              + text(ends[1]) + " m";
-    const auto runs = runs_of(crossed, where);
-    if (runs.empty() || runs.front().begin > end_tolerance
-        || runs.back().end < 1. - end_tolerance)
-      throw InputError(where
-                       + (!runs.empty() && runs.front().begin <= end_tolerance
-                              ? " ends"
-                              : " begins")
-                       + " outside of all blocks. Move that end into a block.");
-
-    Bar bar;
-    bar.cable = cable;
-    const Vector line{ { ends[1][0] - ends[0][0], ends[1][1] - ends[0][1] } };
-    const double length = std::hypot(line[0], line[1]);
-    bar.direction       = { { line[0] / length, line[1] / length } };
-    const auto point    = [&](const double at) {
-      return Vector{ { ends[0][0] + at * line[0], ends[0][1] + at * line[1] } };
-    };
-    for (const CrossedCell &cell : crossed)
-      if (thickness[cell.group] != thickness[crossed.front().group])
-        throw InputError(where
-                         + " lies in blocks of different 'Thickness'. Let it "
-                           "end where the thickness changes.");
-    bar.number = thickness[crossed.front().group] / given.spacing;
-    bar.law    = given.law;
-    for (double BarLaw::*value :
-         { &BarLaw::stiffness, &BarLaw::yield, &BarLaw::bond_stiffness,
-           &BarLaw::bond_strength, &BarLaw::bond_friction,
-           &BarLaw::plate_stiffness, &BarLaw::plate_strength,
-           &BarLaw::anchor_stiffness, &BarLaw::anchor_strength,
-           &BarLaw::dowel_stiffness, &BarLaw::dowel_strength,
-           &BarLaw::dowel_axial_stiffness, &BarLaw::dowel_axial_strength })
-      if (bar.law.*value != BarLaw::unlimited)
-        bar.law.*value *= bar.number;
-
-    const auto nodes = place_nodes(runs, given, length);
-    bar.chain.bond.resize(nodes.size(), 0.);
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-    {
-      bar.hosts.push_back(make_host(
-          point(nodes[i].at), cell_at(crossed, nodes[i].at, nodes[i].block)));
-      if (i == 0)
-        continue;
-      const double part = (nodes[i].at - nodes[i - 1].at) * length;
-      bar.chain.length.push_back(part);
-      if (nodes[i].bonded)
-        for (const unsigned int k : { i - 1, i })
-          bar.chain.bond[k] += 0.5 * part;
-    }
-    for (unsigned int r = 0; r + 1 < runs.size(); ++r)
-    {
-      const double at = 0.5 * (runs[r].end + runs[r + 1].begin);
-      if (runs[r + 1].begin - runs[r].end > touch_tolerance
-          || at * length < given.free_length
-          || (given.law.dowel_stiffness == 0.
-              && given.law.dowel_axial_stiffness == 0.))
-        continue;
-      unsigned int element = 0;
-      while (element + 2 < nodes.size() && nodes[element + 1].at < at)
-        ++element;
-      bar.dowels.push_back(
-          { make_host(point(at), cell_at(crossed, at, runs[r].block)),
-            make_host(point(at), cell_at(crossed, at, runs[r + 1].block)),
-            element });
-    }
-    const auto list = [&](Host &host)
-    {
-      for (unsigned int k = 0; k < 3; ++k)
       {
-        const auto found
-            = std::find(bar.nodes.begin(), bar.nodes.end(), host.nodes[k]);
-        host.places[k] = found - bar.nodes.begin();
-        if (found == bar.nodes.end())
-          bar.nodes.push_back(host.nodes[k]);
+        bars.push_back(
+            place_bar(cables[c], ends, crossed[segment++], nodes, thickness));
+        bars.back().cable = c;
       }
-    };
-    std::for_each(bar.hosts.rbegin(), bar.hosts.rend(), list);
-    for (Dowel &dowel : bar.dowels)
-    {
-      list(dowel.near);
-      list(dowel.far);
     }
-    bars.push_back(std::move(bar));
-  }
-
-  Reinforcement::Host Reinforcement::make_host(const Vector &point,
-                                               const CrossedCell &cell) const
-  {
-    const auto twice_area
-        = [](const Vector &p, const Vector &q, const Vector &r)
-    { return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]); };
-    Host host;
-    host.X     = point;
-    host.block = cell.block;
-    const double whole
-        = twice_area(cell.corners[0], cell.corners[1], cell.corners[2]);
-    for (unsigned int k = 0; k < 3; ++k)
-    {
-      host.nodes[k]   = node_map->exchange().local(cell.nodes[k]);
-      host.weights[k] = twice_area(point, cell.corners[(k + 1) % 3],
-                                   cell.corners[(k + 2) % 3])
-                        / whole;
-    }
-    const auto &numbers = node_map->cells().number;
-    const auto end      = numbers.begin() + node_map->cells().n_deformable;
-    const auto found    = std::find(numbers.begin(), end, cell.number);
-    host.cell = found == end ? NodeMap<2>::none : found - numbers.begin();
-    return host;
   }
 
   void Reinforcement::prepare(State<2> &state) const
@@ -274,53 +92,6 @@ namespace quoin
     for (unsigned int b = 0; b < bars.size(); ++b)
       slice.bars[b].resize(bars[b].chain, bars[b].dowels.size());
   }
-
-  namespace
-  {
-    /** Displacement of a point of a cell [m]. */
-    template <typename Host>
-    Vector displacement(const Host &host, const NodeRecord<2> *nodes)
-    {
-      Vector u{};
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int d = 0; d < 2; ++d)
-          u[d] += host.weights[k] * nodes[host.nodes[k]].u[d];
-      return u;
-    }
-
-    template <typename Host>
-    Vector relative(const Host &near, const Host &far,
-                    const NodeRecord<2> *nodes)
-    {
-      const Vector a = displacement(near, nodes), b = displacement(far, nodes);
-      return { { b[0] - a[0], b[1] - a[1] } };
-    }
-  } // namespace
-
-  namespace
-  {
-    /** Takes a bar out of blocks that are absent: all of it where its far end
-        is. */
-    template <typename Bar>
-    void lose_absent(const Bar &bar, const State<2> &state, BarState &now)
-    {
-      const std::size_t last = bar.hosts.size() - 1;
-      const bool is_gone     = state.is_absent(bar.hosts[last].block);
-      for (std::size_t i = 0; i <= last; ++i)
-        if (is_gone || state.is_absent(bar.hosts[i].block))
-        {
-          now.lost[i] = 1;
-          if (i > 0)
-            now.broken[i - 1] = 1;
-          if (i < last)
-            now.broken[i] = 1;
-        }
-      for (std::size_t d = 0; d < bar.dowels.size(); ++d)
-        if (is_gone || state.is_absent(bar.dowels[d].near.block)
-            || state.is_absent(bar.dowels[d].far.block))
-          now.dowel_broken[d] = 1;
-    }
-  } // namespace
 
   double Reinforcement::end_stage(State<2> &state) const
   {
@@ -417,7 +188,7 @@ namespace quoin
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
       const Vector n = turned(bars[b].direction);
-      for (const Host &host : bars[b].hosts)
+      for (const BarHost &host : bars[b].hosts)
       {
         pressure.push_back(0.);
         if (host.cell == NodeMap<2>::none || bars[b].law.bond_friction == 0.
@@ -437,7 +208,7 @@ namespace quoin
         p = *next++;
   }
 
-  void Reinforcement::add_pair_force(const Host &near, const Host &far,
+  void Reinforcement::add_pair_force(const BarHost &near, const BarHost &far,
                                      const Vector &force) const
   {
     for (unsigned int k = 0; k < 3; ++k)
@@ -448,8 +219,8 @@ namespace quoin
       }
   }
 
-  void Reinforcement::add_spring(const Bar &bar, const Host &near,
-                                 const Host &far, const Vector &axis,
+  void Reinforcement::add_spring(const Bar &bar, const BarHost &near,
+                                 const BarHost &far, const Vector &axis,
                                  const double k) const
   {
     const std::size_t n = 2 * bar.nodes.size();
@@ -483,7 +254,7 @@ namespace quoin
     work.span.resize(m);
     for (unsigned int e = 0; e < m; ++e)
     {
-      const Host &near = bar.hosts[e], &far = bar.hosts[e + 1];
+      const BarHost &near = bar.hosts[e], &far = bar.hosts[e + 1];
       const Vector u = relative(near, far, nodes);
       Vector at_start, moved, now;
       for (unsigned int d = 0; d < 2; ++d)
@@ -514,7 +285,7 @@ namespace quoin
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int d = 0; d < 2; ++d)
           {
-            const Host &near = bar.hosts[e], &far = bar.hosts[e + 1];
+            const BarHost &near = bar.hosts[e], &far = bar.hosts[e + 1];
             gradient(e, 2 * near.places[k] + d)
                 -= near.weights[k] * work.axis[e][d];
             gradient(e, 2 * far.places[k] + d)
@@ -539,7 +310,7 @@ namespace quoin
     const Vector &t = bar.direction, across = turned(t);
     for (unsigned int i = 0; i < bar.dowels.size(); ++i)
     {
-      const Host &near = bar.dowels[i].near, &far = bar.dowels[i].far;
+      const BarHost &near = bar.dowels[i].near, &far = bar.dowels[i].far;
       Vector u = relative(near, far, nodes);
       for (unsigned int d = 0; d < 2; ++d)
         u[d] -= state.dowel_start[2 * i + d];
@@ -656,7 +427,8 @@ namespace quoin
       const State<2> &, const NodeRatio &,
       std::vector<NodeStiffness<2>> &stiffness) const
   {
-    const auto add = [&](const Host &host, const double k, const Vector &axis)
+    const auto add
+        = [&](const BarHost &host, const double k, const Vector &axis)
     {
       for (unsigned int i = 0; i < 3; ++i)
         if (host.nodes[i] < node_map->n_owned())
@@ -672,8 +444,8 @@ namespace quoin
     {
       const BarLaw &law = bar.law;
       const Vector &t = bar.direction, across = turned(t);
-      // Along the bar it is softer than bond, plate and anchor alone, and than
-      // its elements; a tension in it turns elements back.
+      // Along the bar it is softer than bond, plate and anchor alone, and
+      // than its elements; a tension in it turns elements back.
       for (unsigned int i = 0; i < bar.hosts.size(); ++i)
       {
         double springs = law.bond_stiffness * bar.chain.bond[i];
@@ -693,8 +465,8 @@ namespace quoin
         add(bar.hosts[i], turning, t);
         add(bar.hosts[i], turning, across);
       }
-      for (const Dowel &dowel : bar.dowels)
-        for (const Host *host : { &dowel.near, &dowel.far })
+      for (const BarDowel &dowel : bar.dowels)
+        for (const BarHost *host : { &dowel.near, &dowel.far })
         {
           add(*host, 2. * law.dowel_stiffness, across);
           add(*host, 2. * law.dowel_axial_stiffness, t);
@@ -714,137 +486,4 @@ namespace quoin
           += quoin::stored_energy(bars[b].law, bars[b].chain, states[b]);
   }
 
-  double Reinforcement::value(const State<2> &state, const std::string &cable,
-                              const CableQuantity quantity,
-                              const std::array<double, 3> &point) const
-  {
-    const auto &states = state.get<ReinforcementState>().bars;
-    double nearest = std::numeric_limits<double>::max(), result = 0.;
-    double bonded = 0., slipped = 0.; // [m]
-    const auto consider
-        = [&](const double x, const double y, const double value)
-    {
-      const double distance = std::hypot(x - point[0], y - point[1]);
-      if (distance < nearest)
-      {
-        nearest = distance;
-        result  = value;
-      }
-    };
-    for (unsigned int b = 0; b < bars.size(); ++b)
-    {
-      const Bar &bar      = bars[b];
-      const BarState &now = states[b];
-      if (cables[bar.cable].name != cable)
-        continue;
-      for (unsigned int e = 0; e < now.force.size(); ++e)
-      {
-        const Vector &p = bar.hosts[e].X, &q = bar.hosts[e + 1].X;
-        const double force = now.force[e] / bar.number;
-        if (quantity == CableQuantity::axial_force)
-          consider(0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), force);
-        else if (quantity == CableQuantity::largest_force)
-          result = std::max(result, force);
-        else if (quantity == CableQuantity::n_broken)
-          result += now.broken[e];
-        else if (quantity == CableQuantity::n_yielded)
-          result += now.broken[e] || now.plastic[e] != 0.;
-        else if (quantity == CableQuantity::head_force && e == 0)
-          consider(p[0], p[1], now.plate_force / bar.number);
-      }
-      if (quantity == CableQuantity::bond_slip)
-        for (unsigned int i = 0; i < now.slip.size(); ++i)
-          consider(bar.hosts[i].X[0], bar.hosts[i].X[1], now.slip[i]);
-      for (unsigned int i = 0; i < now.bond.size(); ++i)
-        if (now.installed && !now.lost[i])
-        {
-          bonded += bar.chain.bond[i];
-          if (now.bond[i] != bond_state::elastic)
-            slipped += bar.chain.bond[i];
-        }
-      for (unsigned int d = 0; d < bar.dowels.size(); ++d)
-      {
-        const Vector &p = bar.dowels[d].near.X;
-        if (quantity == CableQuantity::shear_force)
-          consider(p[0], p[1], now.dowel_force[2 * d + 1] / bar.number);
-        else if (quantity == CableQuantity::shear_motion)
-          consider(p[0], p[1], now.dowel_motion[2 * d + 1]);
-      }
-    }
-    if (quantity == CableQuantity::slipped_length)
-      return slipped;
-    if (quantity == CableQuantity::slipped_share)
-      return bonded > 0. ? slipped / bonded : 0.;
-    return result;
-  }
-
-  CableFields Reinforcement::fields(const State<2> &state) const
-  {
-    CableFields fields;
-    const auto &states = state.get<ReinforcementState>().bars;
-    for (unsigned int b = 0; b < bars.size(); ++b)
-    {
-      const Bar &bar      = bars[b];
-      const BarState &now = states[b];
-      if (!now.installed)
-        continue;
-      for (unsigned int e = 0; e < now.force.size(); ++e)
-      {
-        if (now.lost[e] || now.lost[e + 1])
-          continue;
-        for (const unsigned int i : { e, e + 1 })
-        {
-          fields.position.push_back(bar.hosts[i].X);
-          fields.displacement.push_back(
-              displacement(bar.hosts[i], state.nodes.data()));
-          fields.slip.push_back(now.slip[i]);
-          fields.bond_force.push_back(
-              bar.chain.bond[i] > 0.
-                  ? now.bond_force[i] / (bar.chain.bond[i] * bar.number)
-                  : 0.);
-          fields.bond.push_back(bar.chain.bond[i] > 0. ? now.bond[i] : 3);
-        }
-        fields.axial_force.push_back(now.force[e] / bar.number);
-        fields.axial_strain.push_back(now.force[e] / bar.law.stiffness
-                                      + now.plastic[e] / bar.chain.length[e]);
-        double shear = 0.;
-        for (unsigned int d = 0; d < bar.dowels.size(); ++d)
-          if (bar.dowels[d].element == e)
-            shear = now.dowel_force[2 * d + 1] / bar.number;
-        fields.shear_force.push_back(shear);
-        fields.state.push_back(now.broken[e]          ? 2
-                               : now.plastic[e] != 0. ? 1
-                                                      : 0);
-        fields.cable.push_back(bar.cable);
-      }
-    }
-    return fields;
-  }
-
-  std::string Reinforcement::text() const
-  {
-    std::ostringstream lines;
-    for (unsigned int c = 0; c < cables.size(); ++c)
-    {
-      std::size_t n_bars = 0, n_elements = 0, n_dowels = 0;
-      for (const Bar &bar : bars)
-        if (bar.cable == c)
-        {
-          ++n_bars;
-          n_elements += bar.chain.n_elements();
-          n_dowels += bar.dowels.size();
-        }
-      lines << (c > 0 ? "\n" : "") << "reinforcement " << cables[c].name << ": "
-            << count_text(n_bars, "bar") << ", "
-            << count_text(n_elements, "element")
-            << (cables[c].law.bond_stiffness > 0.
-                    ? " of at most " + number_text(cables[c].element_length)
-                          + " m"
-                    : "")
-            << ", " << count_text(n_dowels, "dowel")
-            << (cables[c].stage.empty() ? ""
-                                        : ", from stage " + cables[c].stage);
-    }
-    return lines.str();
-  }
 } // namespace quoin

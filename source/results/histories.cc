@@ -7,244 +7,17 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
-#include <quoin/blocks/triangle.h>
-#include <quoin/blocks/cell_states.h>
-#include <quoin/contact/law_fields.h>
 #include <quoin/model/block_placement.h>
-#include <quoin/results/block_output.h>
+#include <quoin/results/point_values.h>
 #include <quoin/results/result_origin.h>
 #include <quoin/water/joint_flow.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <sstream>
 
 namespace quoin
 {
-  namespace
-  {
-    /** Squared distance added to put nodes after others at the same position
-        [m^2]. */
-    constexpr double just_behind = 1e-18;
-
-    /**
-     * The nearest node, cell or joint point of this rank. Among equal distances
-     * one of a block that contains the point, then the lower, then the left one
-     * is chosen, as numbers depend on the number of ranks.
-     */
-    template <int dim>
-    struct Nearest
-    {
-      /** 1 outside of the block, then the last coordinate first. */
-      using Rest = std::array<double, dim + 1>;
-      /** Squared distance [m^2] and Rest. */
-      using Key                    = std::array<double, dim + 2>;
-      static constexpr double none = std::numeric_limits<double>::max();
-
-      static Rest place(const double outside, const dealii::Point<dim> &p)
-      {
-        Rest rest;
-        rest[0] = outside;
-        std::reverse_copy(p.begin_raw(), p.end_raw(), rest.begin() + 1);
-        return rest;
-      }
-
-      explicit Nearest(const dealii::Point<dim> &point) : point(point)
-      {
-        key.fill(none);
-      }
-
-      dealii::Point<dim> point;
-      unsigned int entity = 0; /**< node, cell or joint point */
-      Key key;
-
-      /** @p finer: the key but for the distance. */
-      template <typename Finer>
-      void consider(const dealii::Point<dim> &p, const unsigned int candidate,
-                    const Finer &finer, const double farther = 0.)
-      {
-        const double distance = p.distance_square(point) + farther;
-        if (distance > key[0])
-          return;
-        const Rest rest = finer();
-        Key other;
-        other[0] = distance;
-        std::copy(rest.begin(), rest.end(), other.begin() + 1);
-        if (other < key)
-        {
-          key    = other;
-          entity = candidate;
-        }
-      }
-    };
-
-    /** Twice the area or six times the volume. */
-    template <int dim>
-    double size(const std::array<dealii::Point<dim>, dim + 1> &corners)
-    {
-      dealii::Tensor<2, dim> edges;
-      for (unsigned int k = 0; k < dim; ++k)
-        edges[k] = corners[k + 1] - corners[0];
-      return determinant(edges);
-    }
-
-    template <int dim>
-    std::array<dealii::Point<dim>, dim + 1> corners(const NodeMap<dim> &nodes,
-                                                    const unsigned int cell)
-    {
-      std::array<dealii::Point<dim>, dim + 1> result;
-      for (unsigned int k = 0; k <= dim; ++k)
-        result[k] = nodes.point(nodes.cells().nodes[cell][k]);
-      return result;
-    }
-
-    template <int dim>
-    bool contains(const NodeMap<dim> &nodes, const unsigned int cell,
-                  const dealii::Point<dim> &point)
-    {
-      for (unsigned int k = 0; k <= dim; ++k)
-      {
-        auto with_point = corners(nodes, cell);
-        with_point[k]   = point;
-        if (size<dim>(with_point) < 0.)
-          return false;
-      }
-      return true;
-    }
-
-    /** What of the nodes at the least distance says which comes first: of their
-        block, which may lie on several ranks. Collective. */
-    template <int dim>
-    typename Nearest<dim>::Rest place_of_block(const Model<dim> &model,
-                                               const unsigned int block,
-                                               const dealii::Point<dim> &point)
-    {
-      const NodeMap<dim> &nodes = model.nodes();
-      const unsigned int part   = nodes.blocks().find(block);
-      unsigned int inside       = 0;
-      if (part < nodes.blocks().parts.size())
-      {
-        const auto &[begin, end] = nodes.blocks().parts[part].cells;
-        for (unsigned int c = begin; c < end; ++c)
-          if (contains(nodes, c, point))
-            inside = 1;
-      }
-      // Sum of positions, and how many there are.
-      std::vector<double> sums(dim + 1, 0.);
-      for (const unsigned int node : owned_nodes(model, block))
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          sums[d] += nodes.point(node)[d];
-        ++sums[dim];
-      }
-      namespace MPI = dealii::Utilities::MPI;
-      MPI::sum(sums, nodes.communicator(), sums);
-      dealii::Point<dim> centre;
-      for (unsigned int d = 0; d < dim; ++d)
-        centre[d] = sums[d] / sums[dim];
-      return Nearest<dim>::place(
-          MPI::max(inside, nodes.communicator()) > 0 ? 0. : 1., centre);
-    }
-
-    /** Collective. */
-    template <int dim>
-    void consider_nodes(const Model<dim> &model,
-                        const std::vector<bool> &absent_in_the_end,
-                        Nearest<dim> &nearest)
-    {
-      const NodeMap<dim> &nodes = model.nodes();
-      const auto farther        = [&](const unsigned int node)
-      {
-        return absent_in_the_end[nodes.table().group[nodes.block_of_node(node)]]
-                   ? just_behind
-                   : 0.;
-      };
-      const auto distance = [&](const unsigned int node) {
-        return nodes.point(node).distance_square(nearest.point) + farther(node);
-      };
-      double least = Nearest<dim>::none;
-      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-        least = std::min(least, distance(i));
-      namespace MPI = dealii::Utilities::MPI;
-      least         = MPI::min(least, nodes.communicator());
-      // The blocks that have a node there, on all ranks.
-      std::vector<unsigned int> has_one(nodes.table().n_blocks(), 0);
-      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-        if (distance(i) == least)
-          has_one[nodes.block_of_node(i)] = 1;
-      MPI::max(has_one, nodes.communicator(), has_one);
-      std::map<unsigned int, typename Nearest<dim>::Rest> places;
-      for (unsigned int b = 0; b < has_one.size(); ++b)
-        if (has_one[b])
-          places[b] = place_of_block(model, b, nearest.point);
-      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-        if (distance(i) == least)
-          nearest.consider(
-              nodes.point(i), i,
-              [&] { return places.at(nodes.block_of_node(i)); }, farther(i));
-    }
-
-    template <int dim>
-    void consider_cells(const Model<dim> &model, Nearest<dim> &nearest)
-    {
-      const NodeMap<dim> &nodes = model.nodes();
-      for (unsigned int c = 0; c < nodes.cells().size(); ++c)
-      {
-        dealii::Point<dim> centroid;
-        for (const auto &corner : corners(nodes, c))
-          centroid += corner / (dim + 1.);
-        nearest.consider(centroid, c,
-                         [&] { return Nearest<dim>::place(0., centroid); });
-      }
-    }
-
-    /** Considers joint points on surface @p name; on all if it is empty. */
-    void consider_joint_points(const Model<3> &model, const std::string &name,
-                               Nearest<3> &nearest)
-    {
-      const NodeMap<3> &nodes = model.nodes();
-      const auto &faces       = model.joints().faces();
-      for (unsigned int i = 0; i < faces.size(); ++i)
-      {
-        const JointNodes<3> &face = nodes.faces().joints[faces[i].face];
-        if (!name.empty() && nodes.table().face_names[face.name] != name)
-          continue;
-        dealii::Point<3> centroid;
-        for (const unsigned int node : face.lower)
-          centroid += nodes.point(node) / 3.;
-        for (unsigned int k = 0; k < 3; ++k)
-          nearest.consider(nodes.point(face.lower[k]), 3 * i + k,
-                           [&] { return Nearest<3>::place(0., centroid); });
-      }
-    }
-
-    /** Considers joint points on @p curve; on all curves if it is empty. */
-    void consider_joint_points(const Model<2> &model, const std::string &curve,
-                               Nearest<2> &nearest)
-    {
-      const NodeMap<2> &nodes = model.nodes();
-      for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
-      {
-        const auto &face
-            = nodes.faces().joints[model.joints().segments()[i].face];
-        if (!curve.empty() && nodes.table().face_names[face.name] != curve)
-          continue;
-        for (unsigned int k = 0; k < 2; ++k)
-        {
-          const auto &here  = nodes.point(face.lower[k]);
-          const auto &other = nodes.point(face.lower[1 - k]);
-          nearest.consider(here, 2 * i + k,
-                           [&] {
-                             return Nearest<2>::place(
-                                 0., dealii::Point<2>(0.5 * (here + other)));
-                           });
-        }
-      }
-    }
-  } // namespace
-
   template <int dim>
   Histories<dim>::Histories(const std::vector<HistoryParameters> &parameters,
                             const Model<dim> &model, const Solver<dim> &solver,
@@ -301,7 +74,7 @@ namespace quoin
     unsigned int next = 0; // column of of_blocks
     for (const Probe &probe : probes)
     {
-      const auto blocks = blocks_of(probe);
+      const auto blocks = blocks_at(model, probe.parameters, probe.at);
       is_in.push_back(probe.parameters.is_of_block()
                           ? of_blocks->is_of(next++, block)
                           : std::count(blocks.begin(), blocks.end(), block)
@@ -330,7 +103,8 @@ namespace quoin
         end.parameters.point     = point;
         locate(end);
         end.coordinate = dealii::Utilities::MPI::sum(
-            end.here ? model.nodes().point(end.entity)[d] : 0., communicator);
+            end.at.here ? model.nodes().point(end.at.entity)[d] : 0.,
+            communicator);
         probes.push_back(end);
       }
   }
@@ -359,25 +133,17 @@ namespace quoin
   void Histories<dim>::locate(Probe &probe) const
   {
     const HistoryParameters &wanted = probe.parameters;
-    dealii::Point<dim> point;
-    for (unsigned int d = 0; d < dim; ++d)
-      point[d] = wanted.point[d];
-    Nearest<dim> nearest(point);
     switch (wanted.quantity)
     {
     case HistoryQuantity::displacement:
     case HistoryQuantity::velocity:
-      consider_nodes(model, absent_in_the_end, nearest);
-      break;
     case HistoryQuantity::stress:
     case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
-      consider_cells(model, nearest);
-      break;
     case HistoryQuantity::joint:
-      consider_joint_points(model, wanted.curve, nearest);
-      break;
+      probe.at = find_history_point(model, wanted, absent_in_the_end);
+      return;
     case HistoryQuantity::joint_force:
       return find_surface(probe);
     case HistoryQuantity::water:
@@ -400,7 +166,7 @@ namespace quoin
     case HistoryQuantity::block_displacement: // see BlockHistories
     case HistoryQuantity::block_velocity:
     case HistoryQuantity::block_force:
-    case HistoryQuantity::cable:                 // see Reinforcement::value()
+    case HistoryQuantity::cable:                 // see cable_value()
     case HistoryQuantity::beam:                  // see add_beam_values()
     case HistoryQuantity::boundary_displacement: // see BoundaryHistories
     case HistoryQuantity::boundary_velocity:
@@ -416,8 +182,6 @@ namespace quoin
                            "section 'Contact'.");
       return;
     }
-    probe.entity = nearest.entity;
-    find_owner(probe, nearest.key);
   }
 
   template <int dim>
@@ -463,108 +227,13 @@ namespace quoin
   }
 
   template <int dim>
-  void Histories<dim>::find_owner(Probe &probe,
-                                  const std::array<double, dim + 2> &key) const
-  {
-    const HistoryParameters &wanted = probe.parameters;
-    const std::string section = "section 'Histories/" + wanted.name + "': ";
-    const NodeMap<dim> &nodes = model.nodes();
-    // The least key of all ranks; several ranks may have the same joint.
-    probe.here           = true;
-    const double nearest = dealii::Utilities::MPI::min(key[0], communicator);
-    for (const double part : key)
-    {
-      const double least = dealii::Utilities::MPI::min(
-          probe.here ? part : Nearest<dim>::none, communicator);
-      probe.here = probe.here && part == least;
-    }
-    double longest = 0.;
-    for (const auto &cell : nodes.cells().nodes)
-      for (unsigned int k = 0; k <= dim; ++k)
-        for (unsigned int l = 0; l < k; ++l)
-          longest = std::max(longest, nodes.point(cell[k]).distance_square(
-                                          nodes.point(cell[l])));
-    longest = dealii::Utilities::MPI::max(longest, communicator);
-    if (nearest > 4. * longest && nearest != std::numeric_limits<double>::max())
-    {
-      std::ostringstream message;
-      message << section << "'Point = ";
-      for (unsigned int d = 0; d < dim; ++d)
-        message << (d == 0 ? "" : ", ") << wanted.point[d];
-      message << "' is " << std::sqrt(nearest)
-              << " m from the nearest node, cell or joint of the model, more "
-                 "than two of its longest edges. Give a point of the model in "
-                 "metres.";
-      throw InputError(message.str());
-    }
-    if (nearest == std::numeric_limits<double>::max())
-      throw InputError(section + "there is no "
-                       + (wanted.curve.empty()
-                              ? std::string("such point")
-                              : "joint on a curve '" + wanted.curve + "'")
-                       + " in the model. Correct 'Curve' or 'Quantity'.");
-    const unsigned int rank
-        = dealii::Utilities::MPI::this_mpi_process(communicator);
-    probe.here = rank
-                 == dealii::Utilities::MPI::min(probe.here ? rank : 1U << 30,
-                                                communicator);
-  }
-
-  template <int dim>
-  double Histories<dim>::point_value(const Probe &probe,
-                                     const State<dim> &state) const
-  {
-    const HistoryParameters &wanted = probe.parameters;
-    bool is_absent                  = false;
-    for (const unsigned int block : blocks_of(probe))
-    {
-      is_absent = is_absent || state.is_absent(block);
-      if (is_absent && state.block_marks[block] == block_mark::removed)
-        return std::numeric_limits<double>::quiet_NaN();
-    }
-    if (is_absent)
-      return 0.;
-    switch (wanted.quantity)
-    {
-    case HistoryQuantity::displacement:
-      return state.nodes[probe.entity].u[wanted.component];
-    case HistoryQuantity::velocity:
-      return state.velocity[probe.entity][wanted.component];
-    case HistoryQuantity::stress:
-    case HistoryQuantity::principal_stress:
-    {
-      if (probe.entity >= model.nodes().cells().n_deformable)
-        return 0.;
-      const auto stress
-          = cell_stress(model.blocks(), state.nodes.data(),
-                        state.template get<PlasticHistory>(), probe.entity);
-      if (wanted.quantity == HistoryQuantity::principal_stress)
-        return principal_stress(stress).value[wanted.component];
-      // Index from the order xx, yy, xy, zz, xz, yz.
-      constexpr std::array<unsigned int, 6> in_space = { 0, 1, 3, 2, 4, 5 };
-      return stress[dim == 2 ? wanted.component : in_space[wanted.component]];
-    }
-    default:
-      break;
-    }
-    if (wanted.quantity == HistoryQuantity::joint)
-      return joint_value(probe, state);
-    if (wanted.quantity == HistoryQuantity::yielding)
-      return yield_value(probe, state);
-    if constexpr (dim == 2)
-      if (wanted.quantity == HistoryQuantity::rotation)
-        return rotation(probe.entity, state) / constants::degree;
-    return 0.;
-  }
-
-  template <int dim>
   double Histories<dim>::cable_value(const HistoryParameters &wanted,
                                      const State<dim> &state) const
   {
     if constexpr (dim == 2)
-      return model.reinforcement().value(
-          state, wanted.cable, static_cast<CableQuantity>(wanted.component),
-          wanted.point);
+      return quoin::cable_value(model.reinforcement(), state, wanted.cable,
+                                static_cast<CableQuantity>(wanted.component),
+                                wanted.point);
     return 0.;
   }
 
@@ -601,81 +270,6 @@ namespace quoin
           sum += std::max(0., sign * flow);
     }
     return sum;
-  }
-
-  template <int dim>
-  double Histories<dim>::yield_value(const Probe &probe,
-                                     const State<dim> &state) const
-  {
-    if (probe.entity >= model.nodes().cells().n_deformable
-        || !model.blocks().cell_data().law_of(probe.entity))
-      return 0.;
-    const auto point
-        = cell_history(model.blocks(), state.nodes.data(),
-                       state.template get<PlasticHistory>(), probe.entity);
-    return probe.parameters.component == 0 ? point.state : point.plastic_shear;
-  }
-
-  template <>
-  double Histories<2>::joint_value(const Probe &probe,
-                                   const State<2> &state) const
-  {
-    const unsigned int p         = probe.entity;
-    const unsigned int component = probe.parameters.component;
-    const JointHistory &history  = state.get<JointHistory>();
-    if (component < 2)
-      return joint_gaps(model.joints().segments()[p / 2],
-                        state.nodes.data())[p % 2][component];
-    if (component == 2)
-      return history.normal_traction[p];
-    if (component == 3)
-      return history.shear_traction[p];
-    if (component == 4)
-      return static_cast<double>(state_since_origin(state, p));
-    if (component >= 7)
-    {
-      const JointFlowState *water = state.find<JointFlowState>();
-      return water ? flow_value(model, *water, p, component - 7) : 0.;
-    }
-    return law_field(model.joints(), component == 5 ? "damage" : "crushing", p,
-                     history);
-  }
-
-  template <>
-  double Histories<3>::joint_value(const Probe &probe,
-                                   const State<3> &state) const
-  {
-    const unsigned int p             = probe.entity;
-    const unsigned int component     = probe.parameters.component;
-    const SpaceJoints &joints        = model.joints();
-    const SpaceJointFace &face       = joints.faces()[p / 3];
-    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
-    SpaceJointGap gap = joint_gaps(face, state.nodes.data())[p % 3];
-    for (unsigned int d = 0; d < 2; ++d)
-      gap[1 + d] -= slip_at_origin(state, p, d);
-    switch (component)
-    {
-    case 0:
-      return gap[0];
-    case 1:
-      return std::hypot(gap[1], gap[2]);
-    case 2:
-      return history.normal_traction[p];
-    case 3:
-      return std::hypot(history.shear_traction[2 * p],
-                        history.shear_traction[2 * p + 1]);
-    case 4:
-      return static_cast<double>(state_since_origin(state, p));
-    case 5:
-    case 6:
-      return joints.law_field(component == 5 ? "damage" : "crushing", p,
-                              history);
-    default:
-    {
-      const SpaceJointFrame frame = joint_frame(face, state.nodes.data());
-      return gap[1] * frame.s[component - 7] + gap[2] * frame.t[component - 7];
-    }
-    }
   }
 
   template <>
@@ -716,55 +310,6 @@ namespace quoin
   }
 
   template <int dim>
-  std::vector<unsigned int> Histories<dim>::blocks_of(const Probe &probe) const
-  {
-    if (!probe.here)
-      return {};
-    switch (probe.parameters.quantity)
-    {
-    case HistoryQuantity::displacement:
-    case HistoryQuantity::velocity:
-      return { model.nodes().block_of_node(probe.entity) };
-    case HistoryQuantity::stress:
-    case HistoryQuantity::principal_stress:
-    case HistoryQuantity::yielding:
-    case HistoryQuantity::rotation:
-      return { model.nodes().blocks().block_of_cell(probe.entity) };
-    case HistoryQuantity::joint:
-    {
-      unsigned int face;
-      if constexpr (dim == 2)
-        face = model.joints().segments()[probe.entity / 2].face;
-      else
-        face = model.joints().faces()[probe.entity / 3].face;
-      const auto &blocks = model.nodes().faces().joints[face].blocks;
-      return { blocks.begin(), blocks.end() };
-    }
-    default:
-      return {};
-    }
-  }
-
-  template <>
-  double Histories<2>::rotation(const unsigned int cell,
-                                const State<2> &state) const
-  {
-    const auto &nodes = model.nodes().cells().nodes[cell];
-    if (cell >= model.nodes().cells().n_deformable)
-    {
-      const RigidBlocks &rigid = model.rigid_blocks();
-      unsigned int b           = 0;
-      while (rigid.block(b).end <= nodes[0])
-        ++b;
-      return state.get<RigidBlockStates>()[b].rotation;
-    }
-    const NodeRecord<2> &a = state.nodes[nodes[0]], &b = state.nodes[nodes[1]],
-                        &c = state.nodes[nodes[2]];
-    const CorotatedStrain strain(Triangle(a, b, c).gradient(a.u, b.u, c.u));
-    return std::atan2(strain.s, strain.c);
-  }
-
-  template <int dim>
   std::vector<DisplacementTerm>
   Histories<dim>::terms_of(const std::string &name,
                            const std::string &where) const
@@ -786,8 +331,8 @@ namespace quoin
     const unsigned int d = found->parameters.component;
     const auto add       = [&](const Probe &probe, const double weight)
     {
-      if (probe.here)
-        terms.push_back({ probe.entity, d, weight });
+      if (probe.at.here)
+        terms.push_back({ probe.at.entity, d, weight });
     };
     if (!is_of_two)
       add(*found, 1.);
@@ -827,8 +372,8 @@ namespace quoin
     for (unsigned int i = 0; i < probes.size(); ++i)
     {
       const Probe &probe = probes[i];
-      if (probe.here)
-        row[1 + i] = point_value(probe, state);
+      if (probe.at.here)
+        row[1 + i] = point_value(model, probe.parameters, probe.at, state);
       else if (probe.platen
                && probe.parameters.quantity
                       == HistoryQuantity::platen_displacement)
@@ -853,7 +398,7 @@ namespace quoin
     std::vector<unsigned int> result(n_columns, 0);
     const auto is_at_absent = [&](const Probe &probe)
     {
-      const auto blocks = blocks_of(probe);
+      const auto blocks = blocks_at(model, probe.parameters, probe.at);
       return std::any_of(blocks.begin(), blocks.end(),
                          [&](const unsigned int block)
                          { return state.is_absent(block); });
@@ -921,12 +466,16 @@ namespace quoin
       const Probe &probe = probes[i];
       // The velocity at the full step is the mean of those at half steps; joint
       // tractions were updated in the step.
-      if (probe.here && probe.parameters.quantity == HistoryQuantity::velocity)
-        row[1 + i] = 0.5 * (row[1 + i] + point_value(probe, state));
-      if (probe.here && probe.parameters.quantity == HistoryQuantity::joint
+      if (probe.at.here
+          && probe.parameters.quantity == HistoryQuantity::velocity)
+        row[1 + i]
+            = 0.5
+              * (row[1 + i]
+                 + point_value(model, probe.parameters, probe.at, state));
+      if (probe.at.here && probe.parameters.quantity == HistoryQuantity::joint
           && probe.parameters.component >= 2
           && (dim == 2 || probe.parameters.component < 7)) // else a slip
-        row[1 + i] = point_value(probe, state);
+        row[1 + i] = point_value(model, probe.parameters, probe.at, state);
     }
     for (unsigned int i = 0; i < n_columns; ++i)
       if (probes[i].parameters.quantity == HistoryQuantity::contacts

@@ -45,7 +45,7 @@ namespace quoin
       if (const BlockContacts *all = model.contacts())
         contacts.write(time, contact_fields(model.joints(), *all, now));
       if (!model.reinforcement().empty())
-        cables.write(time, model.reinforcement().fields(now));
+        cables.write(time, cable_fields(model.reinforcement(), now));
       if (const Beams *all = solver.loads().beams.get())
         beams.write(time, *all, now);
     }

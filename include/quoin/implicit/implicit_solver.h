@@ -10,8 +10,8 @@
 #include <quoin/implicit/equilibrium.h>
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/implicit/linear_solver.h>
+#include <quoin/implicit/implicit_steps.h>
 
-#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -89,17 +89,16 @@ namespace quoin
     void resume_stage(const StageParameters &stage,
                       const StageParameters *previous, State<2> &state);
 
-    /** Load time at which the stage ends [s]. */
-    double duration() const
+    const ImplicitSteps &steps() const
     {
-      return stage_duration;
+      return own_steps;
     }
     /** Whether the stage has ended; a jump has its last load_time at once. */
     bool has_ended(const State<2> &state) const
     {
       return state.get<ImplicitState>().released == 1.
              && !state.get<ImplicitState>().jumps
-             && state.load_time >= stage_duration;
+             && state.load_time >= own_steps.duration();
     }
 
     /**
@@ -118,12 +117,6 @@ namespace quoin
      * step, to measure their cost, and discards them.
      */
     void try_iteration(const State<2> &state);
-    /** Least number of steps of the stage, if none is cut. */
-    double least_steps() const
-    {
-      return rests ? 1. : std::ceil(1. / parameters.largest_step * (1. - 1e-9));
-    }
-
     /** Does nothing: in equilibrium internal variables are up to date. */
     void update_histories(State<2> &) override
     {
@@ -150,15 +143,6 @@ namespace quoin
     }
 
   private:
-    static constexpr unsigned int dim = 2;
-
-    /** Target of a step. */
-    struct Target
-    {
-      double load_time;
-      double released;
-      double path; /**< increment of Balance::path [m]; 0: load control */
-    };
     enum class Outcome
     {
       converged,
@@ -171,37 +155,21 @@ namespace quoin
     operators_with(const std::vector<const NodalLoad<2> *> &loads) const;
     /** Excludes absent rigid blocks from the bodies. */
     void hold_absent_blocks(const State<2> &state);
-    double rest_time() const;
     void hold_what_is_out_of_balance(const StageParameters *previous,
                                      State<2> &state);
-    /** First load step; constant loads take one step. */
-    double first_load_step() const
-    {
-      return rests ? 1. : parameters.first_step;
-    }
-    Target choose_target(const State<2> &state) const;
-    Outcome iterate(const State<2> &state, const Target &target,
+    Outcome iterate(const State<2> &state, const StepTarget &target,
                     Configuration &configuration);
-    Outcome solve(const State<2> &state, const Target &target,
+    Outcome solve(const State<2> &state, const StepTarget &target,
                   Configuration &configuration);
     /** Finds a correction and its share of the advance; false: none. */
-    bool find_correction(const Target &target,
+    bool find_correction(const StepTarget &target,
                          const Configuration &configuration, bool is_first,
                          double &share);
     void correct(const State<2> &state, double share,
                  Configuration &configuration);
     bool break_joints();
-    /** Makes the next attempt the first of a jump; false: there are none. */
-    bool begin_jump(State<2> &state) const;
     void go_on_jumping(const State<2> &before, State<2> &state);
     void commit(const Configuration &configuration, State<2> &state);
-    void book_work(const State<2> &state, const Configuration &configuration,
-                   EnergyAccounts &energy) const;
-    void adapt_step(const State<2> &before, State<2> &state) const;
-    /** Reduces the next step; false: it is the smallest one. */
-    bool cut_step(State<2> &state) const;
-    /** Largest path increment in the next step of a jump [m]. */
-    double most_jump_path(const ImplicitState &now) const;
     /** Largest component of the displacements @p from one configuration
         @p to another [m]; collective. */
     double largest_move(const AlignedArray<NodeRecord<2>> &from,
@@ -210,16 +178,13 @@ namespace quoin
     [[noreturn]] void give_up(State<2> &state);
     [[noreturn]] void fail(const State<2> &state, double tried,
                            bool jumped) const;
-    /** Place of the largest unbalanced force; collective. */
-    std::string worst_place() const;
-    std::string describe_node(unsigned int node) const;
 
     const ImplicitParameters parameters;
+    ImplicitSteps own_steps;
     std::vector<bool> path_sets;
     std::vector<std::string> set_names;
 
-    double stage_start = 0., stage_duration = 0.;
-    bool rests = false; /**< whether its loads are constant */
+    double stage_start = 0.; /**< [s] */
     std::vector<bool> held_blocks;
     std::unique_ptr<DofMap> dof_map;
     std::unique_ptr<Equilibrium> equilibrium;

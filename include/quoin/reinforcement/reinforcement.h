@@ -8,8 +8,7 @@
 #include <quoin/blocks/block_forces.h>
 #include <quoin/mesh/node_map.h>
 #include <quoin/operators/force_operator.h>
-#include <quoin/reinforcement/bar_chain.h>
-#include <quoin/reinforcement/cable_parameters.h>
+#include <quoin/reinforcement/bar_placement.h>
 
 #include <array>
 #include <string>
@@ -34,37 +33,6 @@ namespace quoin
     {
       archive_members(archive, *this);
     }
-  };
-
-  /** What histories record of bars, forces of one bar [N]. */
-  enum class CableQuantity : unsigned int
-  {
-    axial_force,    /**< of the element nearest to a point */
-    largest_force,  /**< of all elements of a section */
-    head_force,     /**< at the head nearest to a point */
-    bond_slip,      /**< of the node nearest to a point [m] */
-    shear_force,    /**< of the dowel nearest to a point */
-    shear_motion,   /**< of that dowel [m] */
-    n_broken,       /**< elements that have broken */
-    n_yielded,      /**< elements that have yielded, broken ones included */
-    slipped_length, /**< of the bond that slips or has slipped, all bars [m] */
-    slipped_share   /**< the same by the length of the bond [-] */
-  };
-
-  /** Fields of bars for cables.pvd. */
-  struct CableFields
-  {
-    // Each element has two points.
-    std::vector<std::array<double, 2>> position, displacement;
-    std::vector<double> slip;       /**< of the bond [m] */
-    std::vector<double> bond_force; /**< by length, of one bar [N/m] */
-    std::vector<std::uint8_t> bond; /**< see bond_state; 3: there is none */
-    // Each element has one of these.
-    std::vector<double> axial_force;  /**< of one bar [N] */
-    std::vector<double> axial_strain; /**< [-] */
-    std::vector<double> shear_force;  /**< of its dowel [N] */
-    std::vector<std::uint8_t> state;  /**< 0 elastic, 1 yielded, 2 broken */
-    std::vector<std::int32_t> cable;  /**< number of the section */
   };
 
   /**
@@ -123,47 +91,16 @@ namespace quoin
     void add_stored_energy(const State<2> &state,
                            EnergyAccounts &energies) const override;
 
-    /** Value for histories of the bars of section @p cable; @p point: where
-        [m]. */
-    double value(const State<2> &state, const std::string &cable,
-                 CableQuantity quantity,
-                 const std::array<double, 3> &point) const;
-
-    /** Fields of all bars that are installed. */
-    CableFields fields(const State<2> &state) const;
-
-    /** Lines about the bars for --check. */
-    std::string text() const;
+    const std::vector<CableParameters> &sections() const
+    {
+      return cables;
+    }
+    const std::vector<Bar> &all() const
+    {
+      return bars;
+    }
 
   private:
-    /** A point of a cell. */
-    struct Host
-    {
-      std::array<unsigned int, 3> nodes;  /**< local */
-      std::array<unsigned int, 3> places; /**< of the nodes in Bar::nodes */
-      std::array<double, 3> weights;      /**< [-] */
-      unsigned int block;
-      unsigned int cell;       /**< own deformable cell, or NodeMap::none */
-      std::array<double, 2> X; /**< [m] */
-    };
-    /** Both sides of a joint where a bar crosses it. */
-    struct Dowel
-    {
-      Host near, far;
-      unsigned int element;
-    };
-    struct Bar
-    {
-      unsigned int cable; /**< number of its section */
-      BarLaw law;         /**< in the thickness of the model */
-      double number;      /**< of bars in that thickness [-] */
-      std::array<double, 2> direction;
-      BarChain chain;
-      std::vector<Host> hosts;
-      std::vector<Dowel> dowels;
-      /** Local nodes of all hosts, those of the far end first. */
-      std::vector<unsigned int> nodes;
-    };
     /** Forces of a bar on Bar::nodes [N], and their derivatives. */
     struct Work
     {
@@ -172,11 +109,6 @@ namespace quoin
       std::vector<double> span;                /**< present length [m] */
     };
 
-    void add_bar(const BarEnds &ends, unsigned int cable,
-                 const std::vector<CrossedCell> &cells,
-                 const Thickness &thickness);
-    Host make_host(const std::array<double, 2> &point,
-                   const CrossedCell &cell) const;
     /** Updates a bar and finds its forces in work; @p is_static: from the
         equilibrium at the last positions with the pressure of now. */
     BarDissipation update_bar(const Bar &bar, const NodeRecord<2> *nodes,
@@ -185,9 +117,9 @@ namespace quoin
     void add_dowels(const Bar &bar, const NodeRecord<2> *nodes, BarState &state,
                     bool with_stiffness, BarDissipation &lost) const;
     /** Adds a spring @p k along @p axis between two points to the stiffness. */
-    void add_spring(const Bar &bar, const Host &near, const Host &far,
+    void add_spring(const Bar &bar, const BarHost &near, const BarHost &far,
                     const std::array<double, 2> &axis, double k) const;
-    void add_pair_force(const Host &near, const Host &far,
+    void add_pair_force(const BarHost &near, const BarHost &far,
                         const std::array<double, 2> &force) const;
     /** Updates the pressure on the bond of all bars. Collective. */
     void update_pressure(State<2> &state) const;

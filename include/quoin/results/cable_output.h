@@ -5,7 +5,7 @@
 #define quoin_results_cable_output_h
 
 #include <quoin/output/field_series.h>
-#include <quoin/reinforcement/reinforcement.h>
+#include <quoin/reinforcement/bar_results.h>
 
 #include <string>
 

@@ -7,7 +7,7 @@
 #include <quoin/results/beam_output.h>
 #include <quoin/results/block_histories.h>
 #include <quoin/results/boundary_histories.h>
-#include <quoin/results/history_parameters.h>
+#include <quoin/results/history_points.h>
 #include <quoin/operators/state.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/model/model.h>
@@ -87,8 +87,7 @@ namespace quoin
     struct Probe
     {
       HistoryParameters parameters;
-      unsigned int entity = 0; /**< node, cell or joint point */
-      bool here           = false;
+      HistoryPoint at; /**< nowhere: a quantity of something else */
       /** Coordinate of an end's node in the mesh [m]. */
       double coordinate = 0.;
       unsigned int ends = 0; /**< first probe of the ends, for two points */
@@ -110,24 +109,17 @@ namespace quoin
     void find_surface(const Probe &probe) const;
     /** Finds the load whose reaction or motion @p probe records. */
     void find_load(Probe &probe) const;
-    /** Finds the rank of the nearest point; @p key: that of this rank. */
-    void find_owner(Probe &probe, const std::array<double, dim + 2> &key) const;
-    double point_value(const Probe &probe, const State<dim> &state) const;
     /** The row as it counts from the start of the run; collective. */
     std::vector<double> whole_row(const State<dim> &state);
     /** Whether each column is about a block that is absent; collective. */
     std::vector<unsigned int> about_absent(const State<dim> &state) const;
-    /** The blocks at the point of @p probe, which is on this rank. */
-    std::vector<unsigned int> blocks_of(const Probe &probe) const;
     double cable_value(const HistoryParameters &wanted,
                        const State<dim> &state) const;
     /** Finds where the flow of water is recorded; collective. */
     void find_water(Probe &probe) const;
     double water_value(const Probe &probe, const State<dim> &state) const;
-    double joint_value(const Probe &probe, const State<dim> &state) const;
     /** Share of this rank of the force on the upper sides of joints [N]. */
     double joint_force(const Probe &probe, const State<3> &state) const;
-    double yield_value(const Probe &probe, const State<dim> &state) const;
     /** Adds the columns of boundary elements. */
     void add_boundary_values(const State<dim> &state,
                              std::vector<double> &result) const;
@@ -135,8 +127,6 @@ namespace quoin
     void add_beam_values(const State<dim> &state);
     /** Adds the columns of named blocks; collective. */
     void add_block_values(const State<dim> &state, std::vector<double> &result);
-    /** Rotation of a local cell [rad]. */
-    double rotation(unsigned int cell, const State<dim> &state) const;
 
     /** Probes of the columns, followed by those of ends. */
     std::vector<Probe> probes;
@@ -160,20 +150,12 @@ namespace quoin
   };
 
   template <>
-  double Histories<2>::joint_value(const Probe &probe,
-                                   const State<2> &state) const;
-  template <>
-  double Histories<3>::joint_value(const Probe &probe,
-                                   const State<3> &state) const;
-  template <>
   double Histories<3>::joint_force(const Probe &probe,
                                    const State<3> &state) const;
 
   // Members that exist in two dimensions only.
   template <>
   double Histories<2>::open_length(const State<2> &state) const;
-  template <>
-  double Histories<2>::rotation(unsigned int cell, const State<2> &state) const;
   template <>
   void Histories<2>::add_beam_values(const State<2> &state);
   template <>

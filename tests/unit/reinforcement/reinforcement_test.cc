@@ -145,7 +145,7 @@ TEST(Reinforcement, PretensionInPlace)
   // Plate, free length, and a long bond as a spring.
   const double softness = 1. / 1e8 + 1. / 1e8 + 1. / std::sqrt(1e8 * 1e9);
   EXPECT_NEAR(bar.state.energy.external, 0.5 * 5e4 * 5e4 * softness, 0.6);
-  EXPECT_NEAR(bar.model->reinforcement().value(bar.state, "bar",
-                                               CableQuantity::head_force, {}),
+  EXPECT_NEAR(cable_value(bar.model->reinforcement(), bar.state, "bar",
+                          CableQuantity::head_force, {}),
               5e4, 1e-6);
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_implicit_implicit_steps_h
+#define quoin_implicit_implicit_steps_h
+
+#include <quoin/implicit/implicit_parameters.h>
+#include <quoin/implicit/implicit_state.h>
+#include <quoin/operators/state.h>
+
+#include <cmath>
+
+namespace quoin
+{
+  /** Target of a step. */
+  struct StepTarget
+  {
+    double load_time;
+    double released;
+    double path; /**< increment of Balance::path [m]; 0: load control */
+  };
+
+  /** Chooses the steps of an ImplicitSolver from its state: of the load time,
+      of the path or of the pseudo-time of a jump. */
+  class ImplicitSteps
+  {
+  public:
+    explicit ImplicitSteps(const ImplicitParameters &parameters)
+      : parameters(parameters)
+    {
+    }
+
+    /** Begins a stage that ends at the load time @p duration [s]. @p rests:
+        whether its loads are constant; @p searches_factor: whether it asks if
+        the model keeps moving, for a factor of safety. */
+    void begin_stage(double duration, bool rests, bool searches_factor);
+
+    /** Load time at which the stage ends [s]. */
+    double duration() const
+    {
+      return stage_end;
+    }
+    /** First load step, share of the stage; constant loads take one step. */
+    double first_load_step() const
+    {
+      return rests ? 1. : parameters.first_step;
+    }
+    /** Least number of steps of the stage, if none is cut. */
+    double least_steps() const
+    {
+      return rests ? 1. : std::ceil(1. / parameters.largest_step * (1. - 1e-9));
+    }
+
+    StepTarget target(const State<2> &state) const;
+    /** Reduces the next step; false: it is the smallest one. @p measures_path:
+        whether the path can be followed. */
+    bool cut(bool measures_path, State<2> &state) const;
+    /** Chooses the step after that from @p before to @p state, which took
+        @p n_iterations and went along @p path [m]. */
+    void adapt(const State<2> &before, unsigned int n_iterations, double path,
+               State<2> &state) const;
+
+    /** Makes the next step the first of a jump; false: there are none. */
+    bool begin_jump(State<2> &state) const;
+    /** As adapt(), within a jump. */
+    void adapt_jump(unsigned int n_iterations, double path,
+                    ImplicitState &now) const;
+    void end_jump(ImplicitState &now) const;
+    /** Whether the next equilibrium is the next one on the same path. */
+    bool is_short(const ImplicitState &jump) const;
+    /** Largest path increment in the next step of a jump [m]. */
+    double most_jump_path(const ImplicitState &now) const;
+
+  private:
+    const ImplicitParameters parameters;
+    double stage_end = 0.; /**< load time [s] */
+    bool rests = false, searches_factor = false;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_implicit_reactions_h
+#define quoin_implicit_reactions_h
+
+#include <quoin/implicit/equilibrium.h>
+
+#include <array>
+
+namespace quoin
+{
+  /**
+   * Adds the work from the equilibrium @p start of @p state to @p balance at
+   * @p configuration by the trapezoidal rule: of loads and of reactions of
+   * prescribed motions as external work, of forces out of balance as damping.
+   * @p far_field: null if it does not act. Leaves @p dof_map with the arms of
+   * @p configuration. Collective.
+   */
+  void book_work(const Model<2> &model, DofMap &dof_map,
+                 const StaticFarField *far_field, const State<2> &state,
+                 const Balance &start, const Configuration &configuration,
+                 const Balance &balance, EnergyAccounts &energy);
+
+  /** Force x, y [N] and moment [N m] of @p constraint, as
+      MotionConstraint::resultant(), of all ranks; @p far_field: that of the
+      solver, or null. Collective. */
+  std::array<double, 3> reaction(const Model<2> &model, const DofMap &dof_map,
+                                 const StaticFarField *far_field,
+                                 const Balance &balance,
+                                 const MotionConstraint<2> &constraint);
+} // namespace quoin
+
+#endif

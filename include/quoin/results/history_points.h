@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_history_points_h
+#define quoin_results_history_points_h
+
+#include <quoin/model/model.h>
+#include <quoin/results/history_parameters.h>
+
+#include <vector>
+
+namespace quoin
+{
+  /** Where a history of a point is recorded. */
+  struct HistoryPoint
+  {
+    unsigned int entity = 0;     /**< local node, cell or joint point */
+    bool here           = false; /**< whether this rank records it */
+  };
+
+  /**
+   * The node, cell or joint point of all ranks that is nearest to the point of
+   * @p wanted, a history of one of these. @p absent_in_the_end: whether each
+   * physical surface is absent in the end; its nodes are chosen last among
+   * those at the same position. Throws an InputError if the point is far from
+   * the model or there is no such joint. Collective.
+   */
+  template <int dim>
+  HistoryPoint find_history_point(const Model<dim> &model,
+                                  const HistoryParameters &wanted,
+                                  const std::vector<bool> &absent_in_the_end);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/implicit/implicit_steps.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Factors of the step after a failure and, at most, after success. */
+    constexpr double cut_factor  = 0.3;
+    constexpr double most_growth = 1.5;
+    /** Load step by the last one below which the path is followed. */
+    constexpr double path_share = 0.1;
+    /** Pseudo-time steps of a jump: drag is a typical stiffness over these. */
+    constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
+    constexpr double drag_growth = 2., drag_cut = 0.2;
+    /** Path increment in a step of a jump, by the largest path step or, where a
+        search for the factor of safety asks whether the model goes on moving,
+        by the path of the jump so far. */
+    constexpr double most_flow = 1., safety_flow = 0.2;
+    /** Load step after a jump, by the last one. */
+    constexpr double jump_share = 0.3;
+    /** Number of steps of a short jump. */
+    constexpr unsigned int short_way = 3;
+    /** Steps ahead on the path before return to load control. */
+    constexpr unsigned int steps_ahead = 5;
+  } // namespace
+
+  void ImplicitSteps::begin_stage(const double duration, const bool loads_rest,
+                                  const bool safety)
+  {
+    stage_end       = duration;
+    rests           = loads_rest;
+    searches_factor = safety;
+  }
+
+  StepTarget ImplicitSteps::target(const State<2> &state) const
+  {
+    const ImplicitState &now = state.get<ImplicitState>();
+    if (now.jumps)
+      return { now.jump_time, 1., 0. };
+    if (now.released < 1.)
+    {
+      const double next = now.released + now.step;
+      return { state.load_time, next > 1. - 1e-9 ? 1. : next, 0. };
+    }
+    double next = state.load_time + now.step * stage_end;
+    if (now.follows_path)
+      return { next, 1., now.path_step };
+    if (next > stage_end * (1. - 1e-9))
+      next = stage_end;
+    return { next, 1., 0. };
+  }
+
+  double ImplicitSteps::most_jump_path(const ImplicitState &now) const
+  {
+    const double most = most_flow * parameters.largest_path_step;
+    return searches_factor ? std::max(most, safety_flow * now.drag_path) : most;
+  }
+
+  bool ImplicitSteps::begin_jump(State<2> &state) const
+  {
+    ImplicitState &now = state.get<ImplicitState>();
+    // A search for the factor of safety asks whether the model keeps moving.
+    if (!searches_factor && (!parameters.jumps || now.released < 1.))
+      return false;
+    now.follows_path = false;
+    now.jumps        = true;
+    now.n_drag       = 0;
+    now.drag_time    = 0.;
+    now.drag_path    = 0.;
+    now.jump_loss    = 0.;
+    now.drag_step    = first_drag_step;
+    now.jump_time    = std::min(
+           stage_end, state.load_time
+                          + std::max({ now.step, jump_share * now.last_step,
+                                       2. * parameters.smallest_step })
+                                * stage_end);
+    return true;
+  }
+
+  void ImplicitSteps::adapt_jump(const unsigned int n_iterations,
+                                 const double path, ImplicitState &now) const
+  {
+    if (n_iterations <= parameters.wanted_iterations
+        && std::abs(path) < most_jump_path(now) / drag_growth)
+      now.drag_step *= drag_growth;
+  }
+
+  bool ImplicitSteps::is_short(const ImplicitState &jump) const
+  {
+    return jump.n_drag <= short_way;
+  }
+
+  void ImplicitSteps::end_jump(ImplicitState &now) const
+  {
+    now.jumps     = false;
+    now.path_step = 0.;
+    // After a short jump the equilibrium is the next one on the same path.
+    const double next
+        = now.last_step * (is_short(now) ? most_growth : jump_share);
+    now.last_step = std::clamp(next, 0.01 * parameters.first_step,
+                               parameters.largest_step);
+    now.step      = now.last_step;
+  }
+
+  bool ImplicitSteps::cut(const bool measures_path, State<2> &state) const
+  {
+    ImplicitState &now = state.get<ImplicitState>();
+    if (now.jumps)
+    {
+      now.drag_step *= drag_cut;
+      return now.drag_step > least_drag_step;
+    }
+    if (now.follows_path)
+    {
+      now.path_step *= cut_factor;
+      now.step *= cut_factor;
+      return now.path_step
+                 > path_share * path_share * parameters.largest_path_step
+             || begin_jump(state);
+    }
+    const double last_step
+        = std::max(now.last_step, 0.1 * parameters.first_step);
+    now.step *= cut_factor;
+    if (parameters.path != PathFollowing::never && now.released == 1.
+        && measures_path && now.step < path_share * last_step)
+    {
+      now.follows_path = true;
+      now.ahead        = 0;
+      now.step         = 0.5 * last_step;
+      now.path_step    = now.path_step > 0.
+                             ? 0.5 * now.path_step
+                             : path_share * parameters.largest_path_step;
+      return true;
+    }
+    if (now.step < path_share * last_step && begin_jump(state))
+      return true;
+    return now.step >= parameters.smallest_step;
+  }
+
+  void ImplicitSteps::adapt(const State<2> &before,
+                            const unsigned int n_iterations, const double path,
+                            State<2> &state) const
+  {
+    ImplicitState &now = state.get<ImplicitState>();
+    const double went
+        = before.get<ImplicitState>().released < 1.
+              ? now.released - before.get<ImplicitState>().released
+              : (state.load_time - before.load_time) / stage_end;
+    const double growth
+        = std::min(most_growth, std::sqrt(double(parameters.wanted_iterations)
+                                          / std::max(1U, n_iterations)));
+    if (before.get<ImplicitState>().released < 1.)
+    {
+      now.step = std::min(growth * std::max(went, now.step),
+                          parameters.largest_step);
+      if (now.released == 1.)
+        now.step = first_load_step();
+      return;
+    }
+    now.path_length += path;
+    now.farthest = std::max(now.farthest, state.load_time);
+    if (now.follows_path)
+    {
+      const double longer
+          = std::min(growth, parameters.largest_path_step / now.path_step);
+      now.path_step *= longer;
+      // Loads advance first, so that joints yield; the path then decides.
+      now.step
+          = std::clamp(longer * std::abs(went), 0.01 * parameters.first_step,
+                       parameters.largest_step);
+      now.ahead
+          = went > 0. && state.load_time >= now.farthest ? now.ahead + 1 : 0;
+      if (now.ahead > steps_ahead && parameters.path != PathFollowing::always)
+        now.follows_path = false;
+    }
+    else
+    {
+      now.path_step = std::min(path, parameters.largest_path_step);
+      now.last_step = went;
+      now.step      = std::min(growth * std::max(went, now.step),
+                               parameters.largest_step);
+      if (parameters.path == PathFollowing::always
+          && path > 1e-3 * parameters.largest_path_step)
+        now.follows_path = true;
+    }
+  }
+} // namespace quoin

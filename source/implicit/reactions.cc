@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/implicit/implicit_state.h>
+#include <quoin/implicit/reactions.h>
+
+namespace quoin
+{
+  void book_work(const Model<2> &model, DofMap &dof_map,
+                 const StaticFarField *far_field, const State<2> &state,
+                 const Balance &start, const Configuration &configuration,
+                 const Balance &balance, EnergyAccounts &energy)
+  {
+    const MPI_Comm communicator = model.nodes().communicator();
+    // Work by the trapezoidal rule, of loads and of reactions of prescribed
+    // motions; that of released forces counts as damping.
+    const auto &held    = state.get<ImplicitState>().held;
+    const double left_0 = 1. - state.get<ImplicitState>().released;
+    const double left_1 = 1. - configuration.released;
+    const double mean   = 0.5 * (left_0 + left_1);
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+      for (const unsigned int d : { 0, 1 })
+      {
+        const double u = configuration.nodes[i].u[d] - state.nodes[i].u[d];
+        double force
+            = 0.5 * (start.external[i][d] + balance.external[i][d]);
+        const double out_of_balance
+            = 0.5 * (start.force[i][d] + balance.force[i][d]);
+        if (dof_map.is_free(i, d))
+          energy.damping += out_of_balance * u;
+        else if (!dof_map.is_in_body(i))
+          force -= out_of_balance;
+        energy.external += force * u;
+        if (!held.empty())
+          energy.damping -= mean * held[2 * i + d] * u;
+      }
+    if (far_field)
+      for (unsigned int k = 0; k < far_field->nodes().size(); ++k)
+        for (const unsigned int d : { 0, 1 })
+        {
+          const unsigned int node = far_field->nodes()[k];
+          energy.external
+              += state.get<StaticFarFieldState>().held[2 * k + d]
+                 * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
+        }
+    // Moments are in balance about the arms of their own configuration.
+    const Configuration before = configuration_of(dof_map.bodies(), state);
+    dof_map.update_arms(before);
+    const auto forces_0
+        = body_forces(dof_map.bodies(), start.force, communicator);
+    dof_map.update_arms(configuration);
+    const auto forces_1
+        = body_forces(dof_map.bodies(), balance.force, communicator);
+    for (unsigned int b = 0; b < before.bodies.size(); ++b)
+    {
+      const RigidBody &body = dof_map.bodies()[b];
+      if (!body.counts)
+        continue;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double u      = configuration.bodies[b][d] - before.bodies[b][d];
+        const double forces = 0.5 * (forces_0[b][d] + forces_1[b][d]);
+        const double drives = 0.5 * (start.drives[b][d] + balance.drives[b][d]);
+        energy.external += u * (body.given[d] ? -forces : drives);
+        if (!body.given[d])
+          energy.damping += u * (forces + drives);
+      }
+    }
+  }
+
+  std::array<double, 3> reaction(const Model<2> &model, const DofMap &dof_map,
+                                 const StaticFarField *far_field,
+                                 const Balance &balance,
+                                 const MotionConstraint<2> &constraint)
+  {
+    const MPI_Comm communicator = model.nodes().communicator();
+    std::array<double, 3> result{};
+    if (constraint.traits().is_rigid_body())
+    {
+      const auto forces
+          = body_forces(dof_map.bodies(), balance.force, communicator);
+      for (unsigned int b = 0; b < forces.size(); ++b)
+        if (dof_map.bodies()[b].platen == &constraint)
+          for (unsigned int d = 0; d < 3; ++d)
+            result[d] = dof_map.bodies()[b].given[d] ? -forces[b][d]
+                                                     : balance.drives[b][d];
+      return result;
+    }
+    if (&constraint == far_field)
+      result = balance.far_field_force;
+    else if (constraint.traits().kind == MotionKind::prescribed)
+      for (const DofMap::Prescribed &given : dof_map.prescribed())
+      {
+        if (given.part != &(*constraint.parts())[given.component])
+          continue;
+        const auto &X      = model.nodes().point(given.node);
+        const double force = -balance.force[given.node][given.component];
+        result[given.component] += force;
+        result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
+      }
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), 3, MPI_DOUBLE, MPI_SUM,
+                  communicator);
+    return result;
+  }
+} // namespace quoin

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/results/history_points.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Squared distance added to put nodes after others at the same position
+        [m^2]. */
+    constexpr double just_behind = 1e-18;
+
+    /**
+     * The nearest node, cell or joint point of this rank. Among equal distances
+     * one of a block that contains the point, then the lower, then the left one
+     * is chosen, as numbers depend on the number of ranks.
+     */
+    template <int dim>
+    struct Nearest
+    {
+      /** 1 outside of the block, then the last coordinate first. */
+      using Rest = std::array<double, dim + 1>;
+      /** Squared distance [m^2] and Rest. */
+      using Key                    = std::array<double, dim + 2>;
+      static constexpr double none = std::numeric_limits<double>::max();
+
+      static Rest place(const double outside, const dealii::Point<dim> &p)
+      {
+        Rest rest;
+        rest[0] = outside;
+        std::reverse_copy(p.begin_raw(), p.end_raw(), rest.begin() + 1);
+        return rest;
+      }
+
+      explicit Nearest(const dealii::Point<dim> &point) : point(point)
+      {
+        key.fill(none);
+      }
+
+      dealii::Point<dim> point;
+      unsigned int entity = 0; /**< node, cell or joint point */
+      Key key;
+
+      /** @p finer: the key but for the distance. */
+      template <typename Finer>
+      void consider(const dealii::Point<dim> &p, const unsigned int candidate,
+                    const Finer &finer, const double farther = 0.)
+      {
+        const double distance = p.distance_square(point) + farther;
+        if (distance > key[0])
+          return;
+        const Rest rest = finer();
+        Key other;
+        other[0] = distance;
+        std::copy(rest.begin(), rest.end(), other.begin() + 1);
+        if (other < key)
+        {
+          key    = other;
+          entity = candidate;
+        }
+      }
+    };
+
+    /** Twice the area or six times the volume. */
+    template <int dim>
+    double size(const std::array<dealii::Point<dim>, dim + 1> &corners)
+    {
+      dealii::Tensor<2, dim> edges;
+      for (unsigned int k = 0; k < dim; ++k)
+        edges[k] = corners[k + 1] - corners[0];
+      return determinant(edges);
+    }
+
+    template <int dim>
+    std::array<dealii::Point<dim>, dim + 1> corners(const NodeMap<dim> &nodes,
+                                                    const unsigned int cell)
+    {
+      std::array<dealii::Point<dim>, dim + 1> result;
+      for (unsigned int k = 0; k <= dim; ++k)
+        result[k] = nodes.point(nodes.cells().nodes[cell][k]);
+      return result;
+    }
+
+    template <int dim>
+    bool contains(const NodeMap<dim> &nodes, const unsigned int cell,
+                  const dealii::Point<dim> &point)
+    {
+      for (unsigned int k = 0; k <= dim; ++k)
+      {
+        auto with_point = corners(nodes, cell);
+        with_point[k]   = point;
+        if (size<dim>(with_point) < 0.)
+          return false;
+      }
+      return true;
+    }
+
+    /** What of the nodes at the least distance says which comes first: of their
+        block, which may lie on several ranks. Collective. */
+    template <int dim>
+    typename Nearest<dim>::Rest place_of_block(const Model<dim> &model,
+                                               const unsigned int block,
+                                               const dealii::Point<dim> &point)
+    {
+      const NodeMap<dim> &nodes = model.nodes();
+      const unsigned int part   = nodes.blocks().find(block);
+      unsigned int inside       = 0;
+      if (part < nodes.blocks().parts.size())
+      {
+        const auto &[begin, end] = nodes.blocks().parts[part].cells;
+        for (unsigned int c = begin; c < end; ++c)
+          if (contains(nodes, c, point))
+            inside = 1;
+      }
+      // Sum of positions, and how many there are.
+      std::vector<double> sums(dim + 1, 0.);
+      for (const unsigned int node : owned_nodes(model, block))
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          sums[d] += nodes.point(node)[d];
+        ++sums[dim];
+      }
+      namespace MPI = dealii::Utilities::MPI;
+      MPI::sum(sums, nodes.communicator(), sums);
+      dealii::Point<dim> centre;
+      for (unsigned int d = 0; d < dim; ++d)
+        centre[d] = sums[d] / sums[dim];
+      return Nearest<dim>::place(
+          MPI::max(inside, nodes.communicator()) > 0 ? 0. : 1., centre);
+    }
+
+    /** Collective. */
+    template <int dim>
+    void consider_nodes(const Model<dim> &model,
+                        const std::vector<bool> &absent_in_the_end,
+                        Nearest<dim> &nearest)
+    {
+      const NodeMap<dim> &nodes = model.nodes();
+      const auto farther        = [&](const unsigned int node)
+      {
+        return absent_in_the_end[nodes.table().group[nodes.block_of_node(node)]]
+                   ? just_behind
+                   : 0.;
+      };
+      const auto distance = [&](const unsigned int node) {
+        return nodes.point(node).distance_square(nearest.point) + farther(node);
+      };
+      double least = Nearest<dim>::none;
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        least = std::min(least, distance(i));
+      namespace MPI = dealii::Utilities::MPI;
+      least         = MPI::min(least, nodes.communicator());
+      // The blocks that have a node there, on all ranks.
+      std::vector<unsigned int> has_one(nodes.table().n_blocks(), 0);
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        if (distance(i) == least)
+          has_one[nodes.block_of_node(i)] = 1;
+      MPI::max(has_one, nodes.communicator(), has_one);
+      std::map<unsigned int, typename Nearest<dim>::Rest> places;
+      for (unsigned int b = 0; b < has_one.size(); ++b)
+        if (has_one[b])
+          places[b] = place_of_block(model, b, nearest.point);
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        if (distance(i) == least)
+          nearest.consider(
+              nodes.point(i), i,
+              [&] { return places.at(nodes.block_of_node(i)); }, farther(i));
+    }
+
+    template <int dim>
+    void consider_cells(const Model<dim> &model, Nearest<dim> &nearest)
+    {
+      const NodeMap<dim> &nodes = model.nodes();
+      for (unsigned int c = 0; c < nodes.cells().size(); ++c)
+      {
+        dealii::Point<dim> centroid;
+        for (const auto &corner : corners(nodes, c))
+          centroid += corner / (dim + 1.);
+        nearest.consider(centroid, c,
+                         [&] { return Nearest<dim>::place(0., centroid); });
+      }
+    }
+
+    /** Considers joint points on surface @p name; on all if it is empty. */
+    void consider_joint_points(const Model<3> &model, const std::string &name,
+                               Nearest<3> &nearest)
+    {
+      const NodeMap<3> &nodes = model.nodes();
+      const auto &faces       = model.joints().faces();
+      for (unsigned int i = 0; i < faces.size(); ++i)
+      {
+        const JointNodes<3> &face = nodes.faces().joints[faces[i].face];
+        if (!name.empty() && nodes.table().face_names[face.name] != name)
+          continue;
+        dealii::Point<3> centroid;
+        for (const unsigned int node : face.lower)
+          centroid += nodes.point(node) / 3.;
+        for (unsigned int k = 0; k < 3; ++k)
+          nearest.consider(nodes.point(face.lower[k]), 3 * i + k,
+                           [&] { return Nearest<3>::place(0., centroid); });
+      }
+    }
+
+    /** Considers joint points on @p curve; on all curves if it is empty. */
+    void consider_joint_points(const Model<2> &model, const std::string &curve,
+                               Nearest<2> &nearest)
+    {
+      const NodeMap<2> &nodes = model.nodes();
+      for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
+      {
+        const auto &face
+            = nodes.faces().joints[model.joints().segments()[i].face];
+        if (!curve.empty() && nodes.table().face_names[face.name] != curve)
+          continue;
+        for (unsigned int k = 0; k < 2; ++k)
+        {
+          const auto &here  = nodes.point(face.lower[k]);
+          const auto &other = nodes.point(face.lower[1 - k]);
+          nearest.consider(here, 2 * i + k,
+                           [&] {
+                             return Nearest<2>::place(
+                                 0., dealii::Point<2>(0.5 * (here + other)));
+                           });
+        }
+      }
+    }
+
+    /** Whether the nearest point, of those with the @p key of each rank, is on
+        this rank. */
+    template <int dim>
+    bool is_owner(const NodeMap<dim> &nodes, const HistoryParameters &wanted,
+                  const typename Nearest<dim>::Key &key)
+    {
+      const MPI_Comm communicator = nodes.communicator();
+      const std::string section   = "section 'Histories/" + wanted.name + "': ";
+      // The least key of all ranks; several ranks may have the same joint.
+      bool here            = true;
+      const double nearest = dealii::Utilities::MPI::min(key[0], communicator);
+      for (const double part : key)
+      {
+        const double least = dealii::Utilities::MPI::min(
+            here ? part : Nearest<dim>::none, communicator);
+        here = here && part == least;
+      }
+      double longest = 0.;
+      for (const auto &cell : nodes.cells().nodes)
+        for (unsigned int k = 0; k <= dim; ++k)
+          for (unsigned int l = 0; l < k; ++l)
+            longest = std::max(longest, nodes.point(cell[k]).distance_square(
+                                            nodes.point(cell[l])));
+      longest = dealii::Utilities::MPI::max(longest, communicator);
+      if (nearest > 4. * longest
+          && nearest != std::numeric_limits<double>::max())
+      {
+        std::ostringstream message;
+        message << section << "'Point = ";
+        for (unsigned int d = 0; d < dim; ++d)
+          message << (d == 0 ? "" : ", ") << wanted.point[d];
+        message
+            << "' is " << std::sqrt(nearest)
+            << " m from the nearest node, cell or joint of the model, more "
+               "than two of its longest edges. Give a point of the model in "
+               "metres.";
+        throw InputError(message.str());
+      }
+      if (nearest == std::numeric_limits<double>::max())
+        throw InputError(section + "there is no "
+                         + (wanted.curve.empty()
+                                ? std::string("such point")
+                                : "joint on a curve '" + wanted.curve + "'")
+                         + " in the model. Correct 'Curve' or 'Quantity'.");
+      const unsigned int rank
+          = dealii::Utilities::MPI::this_mpi_process(communicator);
+      return rank
+             == dealii::Utilities::MPI::min(here ? rank : 1U << 30,
+                                            communicator);
+    }
+  } // namespace
+
+  template <int dim>
+  HistoryPoint find_history_point(const Model<dim> &model,
+                                  const HistoryParameters &wanted,
+                                  const std::vector<bool> &absent_in_the_end)
+  {
+    dealii::Point<dim> point;
+    for (unsigned int d = 0; d < dim; ++d)
+      point[d] = wanted.point[d];
+    Nearest<dim> nearest(point);
+    switch (wanted.quantity)
+    {
+    case HistoryQuantity::displacement:
+    case HistoryQuantity::velocity:
+      consider_nodes(model, absent_in_the_end, nearest);
+      break;
+    case HistoryQuantity::joint:
+      consider_joint_points(model, wanted.curve, nearest);
+      break;
+    default:
+      consider_cells(model, nearest);
+    }
+    const bool here = is_owner(model.nodes(), wanted, nearest.key);
+    return { nearest.entity, here };
+  }
+
+  template HistoryPoint find_history_point(const Model<2> &,
+                                           const HistoryParameters &,
+                                           const std::vector<bool> &);
+  template HistoryPoint find_history_point(const Model<3> &,
+                                           const HistoryParameters &,
+                                           const std::vector<bool> &);
+} // namespace quoin
