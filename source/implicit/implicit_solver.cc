@@ -123,7 +123,7 @@ namespace quoin
     equilibrium = std::make_unique<Equilibrium>(
         model, *dof_map, operators_with(acting.nodal), path_sets, stage_start,
         all.far.elastostatic_acts ? all.far.elastostatic : nullptr,
-        acting.pattern.get(), all.beams.get().get());
+        acting.pattern.get(), all.beams.get());
     // Multigrid gives no factor.
     linear_solver = std::make_unique<LinearSolver>(
         acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
@@ -254,8 +254,7 @@ namespace quoin
     const unsigned int n_owned = model.nodes().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i][d]
-                                                  : 0.);
+        now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i][d] : 0.);
     const auto forces
         = body_forces(dof_map->bodies(), balance.force, communicator);
     now.held_blocks.resize(3 * std::size_t(model.rigid_blocks().n_blocks()));
@@ -604,7 +603,7 @@ namespace quoin
   {
     double moved = 0.;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
+      for (const unsigned int d : { 0, 1 })
         moved = std::max(moved, std::abs(to[i].u[d] - from[i].u[d]));
     return dealii::Utilities::MPI::max(moved, communicator);
   }
@@ -628,8 +627,8 @@ namespace quoin
   {
     EnergyAccounts done = balance.state.energy;
     book_work(model, *dof_map,
-              all.far.elastostatic_acts ? all.far.elastostatic : nullptr, state, start,
-              configuration, balance, done);
+              all.far.elastostatic_acts ? all.far.elastostatic : nullptr, state,
+              start, configuration, balance, done);
     state.energy += done;
     const double went = std::abs(configuration.load_time - state.load_time);
 

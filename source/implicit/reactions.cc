@@ -22,8 +22,7 @@ namespace quoin
       for (const unsigned int d : { 0, 1 })
       {
         const double u = configuration.nodes[i].u[d] - state.nodes[i].u[d];
-        double force
-            = 0.5 * (start.external[i][d] + balance.external[i][d]);
+        double force   = 0.5 * (start.external[i][d] + balance.external[i][d]);
         const double out_of_balance
             = 0.5 * (start.force[i][d] + balance.force[i][d]);
         if (dof_map.is_free(i, d))
