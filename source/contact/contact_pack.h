@@ -31,11 +31,12 @@ namespace quoin
   class ContactPack
   {
   public:
-    using L     = Lanes<lanes>;
-    using F     = LaneFunctions<lanes>;
-    using Value = typename F::Value;
-    using Bits  = typename F::Bits;
-    using Laws  = std::conditional_t<lanes == 1, Law, LawLanes<Law, lanes>>;
+    static constexpr unsigned int dim = 2;
+    using L                           = Lanes<lanes>;
+    using F                           = LaneFunctions<lanes>;
+    using Value                       = typename F::Value;
+    using Bits                        = typename F::Bits;
+    using Laws = std::conditional_t<lanes == 1, Law, LawLanes<Law, lanes>>;
 
     // As load() found them; see ContactPoint.
     Value sigma_before, tau_before, area_before, opening_before;
@@ -169,7 +170,7 @@ namespace quoin
     /** Normal and shear stiffness after advance() [Pa/m]. */
     QUOIN_INLINE void stiffness(const Law &law, Value (&result)[2]) const
     {
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if constexpr (Law::stiffens)
           result[d] = F::each([&](const int l)
                               { return law.stiffness_at(F::at(sigma, l))[d]; });

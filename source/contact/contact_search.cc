@@ -79,8 +79,9 @@ namespace quoin
     }
 
     /** xmin, ymin, xmax, ymax [m]; far inside out: empty. */
-    using Bounds         = std::array<double, 4>;
-    constexpr double far = std::numeric_limits<double>::max();
+    constexpr unsigned int dim = 2;
+    using Bounds               = std::array<double, 2 * dim>;
+    constexpr double far       = std::numeric_limits<double>::max();
     constexpr Bounds nothing{ { far, far, -far, -far } };
 
     void enclose(const EdgeEnds &edge, Bounds &bounds)
@@ -96,7 +97,7 @@ namespace quoin
 
     bool are_near(const Bounds &a, const Bounds &b, const double skin)
     {
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (!(a[d] - skin <= b[2 + d] && b[d] - skin <= a[2 + d]))
           return false;
       return true;
@@ -161,7 +162,7 @@ namespace quoin
       std::vector<Entry> entries;
       for (unsigned int i = 0; i < boxes.size(); ++i)
       {
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
         {
           all[d]     = std::min(all[d], boxes[i][d]);
           all[2 + d] = std::max(all[2 + d], boxes[i][2 + d]);

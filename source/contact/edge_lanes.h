@@ -75,7 +75,7 @@ namespace quoin
           reinterpret_cast<const char *>(compact_velocity.data()),
           sizeof(dealii::Tensor<1, 2>), node, v[n][0], v[n][1]);
     }
-    for (unsigned int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < dim; ++d)
       rate[d] = (1. - upper) * v[2][d] + upper * v[3][d]
                 - (1. - lower) * v[0][d] - lower * v[1][d];
   }

@@ -95,10 +95,11 @@ namespace quoin
   template <int lanes>
   struct PairFunctions
   {
-    using F     = LaneFunctions<lanes>;
-    using Value = typename F::Value;
-    using Bits  = typename F::Bits;
-    using Edge  = EdgeLanes<lanes>;
+    static constexpr unsigned int dim = 2;
+    using F                           = LaneFunctions<lanes>;
+    using Value                       = typename F::Value;
+    using Bits                        = typename F::Bits;
+    using Edge                        = EdgeLanes<lanes>;
 
     static constexpr double least_cosine = least_contact_cosine;
 
@@ -364,7 +365,7 @@ namespace quoin
                                     const Value (&f)[2],
                                     TractionLanes<lanes> &sum)
     {
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         sum.force[d] += f[d];
         sum.at_lower[d] += lower * f[d];
@@ -441,7 +442,7 @@ namespace quoin
           = { sum.stretch_b * b.tangent[0] - turn_b * b.tangent[1],
               sum.stretch_b * b.tangent[1] + turn_b * b.tangent[0] };
       EndForceLanes<lanes> forces;
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         forces.a[1][d] = sum.at_lower[d] - end_a[d];
         forces.a[0][d] = sum.force[d] + sum.move[d] - forces.a[1][d];

@@ -253,7 +253,7 @@ namespace quoin
     now.step                   = parameters.first_step;
     const unsigned int n_owned = model.nodes().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (const unsigned int d : { 0, 1 })
         now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i][d] : 0.);
     const auto forces
         = body_forces(dof_map->bodies(), balance.force, communicator);

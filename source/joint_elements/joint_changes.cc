@@ -49,16 +49,15 @@ namespace quoin
     JointHistory &history = state.get<JointHistory>();
     for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
-      const JointSegment &segment = joints.segments()[i];
-      const JointFrame local      = joint_frame(segment, state.nodes.data());
-      const double *n = local.normal, *s = local.tangent;
+      const JointSegment &segment   = joints.segments()[i];
+      const JointFrame local        = joint_frame(segment, state.nodes.data());
+      const dealii::Tensor<1, 2> &n = local.normal, &s = local.tangent;
       for (unsigned int k = 0; k < 2; ++k)
       {
         const auto &[xx, yy, xy] = face_stress[segment.face][k];
-        const double traction[2]
-            = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
-        const double normal = traction[0] * n[0] + traction[1] * n[1];
-        const double shear  = traction[0] * s[0] + traction[1] * s[1];
+        const dealii::Point<2> traction(xx * n[0] + xy * n[1],
+                                        xy * n[0] + yy * n[1]);
+        const double normal = traction * n, shear = traction * s;
         with_law(joints, segment,
                  [&](const auto &law)
                  {
@@ -100,12 +99,9 @@ namespace quoin
       const double sigma = segment.area[k] * history.normal_traction[2 * i + k];
       const double tau   = segment.area[k] * history.shear_traction[2 * i + k];
       couple += tau * opening - sigma * slip;
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const double f = sigma * local.normal[d] + tau * local.tangent[d];
-        force[segment.lower[k]][d] += f;
-        force[segment.upper[k]][d] -= f;
-      }
+      const dealii::Tensor<1, 2> f = sigma * local.normal + tau * local.tangent;
+      force[segment.lower[k]] += f;
+      force[segment.upper[k]] -= f;
     }
     subtract_couple(segment, local, couple, force);
   }

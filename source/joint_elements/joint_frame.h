@@ -14,8 +14,8 @@ namespace quoin
 {
   struct JointFrame
   {
-    double normal[2];
-    double tangent[2];
+    dealii::Tensor<1, 2> normal;
+    dealii::Tensor<1, 2> tangent;
     double inverse_length; /**< 1/|E|, E the sum of both edges [1/m] */
   };
 
@@ -28,13 +28,12 @@ namespace quoin
     const NodeRecord<2> &b1 = nodes[segment.upper[1]];
 
     // Twice the mean edge of the two sides; the lower block is on its left.
-    const double x = (a1.X[0] - a0.X[0]) + (b1.X[0] - b0.X[0])
-                     + (a1.u[0] - a0.u[0]) + (b1.u[0] - b0.u[0]);
-    const double y = (a1.X[1] - a0.X[1]) + (b1.X[1] - b0.X[1])
-                     + (a1.u[1] - a0.u[1]) + (b1.u[1] - b0.u[1]);
-    const double inverse_length = 1. / std::sqrt(x * x + y * y);
-    const double nx = y * inverse_length, ny = -x * inverse_length;
-    return { { nx, ny }, { ny, -nx }, inverse_length };
+    const dealii::Tensor<1, 2> edge
+        = (a1.X - a0.X) + (b1.X - b0.X) + (a1.u - a0.u) + (b1.u - b0.u);
+    const double inverse_length = 1. / edge.norm();
+    const double nx = edge[1] * inverse_length, ny = -edge[0] * inverse_length;
+    return { dealii::Point<2>(nx, ny), dealii::Point<2>(ny, -nx),
+             inverse_length };
   }
 
   /** Opening and slip [m] of point @p k. */
@@ -46,10 +45,8 @@ namespace quoin
     const NodeRecord<2> &a = nodes[segment.lower[k]];
     const NodeRecord<2> &b = nodes[segment.upper[k]];
 
-    const double x = (b.X[0] - a.X[0]) + (b.u[0] - a.u[0]);
-    const double y = (b.X[1] - a.X[1]) + (b.u[1] - a.u[1]);
-    return { { x * frame.normal[0] + y * frame.normal[1],
-               x * frame.tangent[0] + y * frame.tangent[1] } };
+    const dealii::Tensor<1, 2> way = (b.X - a.X) + (b.u - a.u);
+    return { { way * frame.normal, way * frame.tangent } };
   }
 
   /** How fast @p frame turns [1/s] as its nodes move with @p velocity. */
@@ -57,13 +54,10 @@ namespace quoin
                               const JointFrame &frame,
                               const dealii::Tensor<1, 2> *velocity)
   {
-    double rate = 0.;
-    for (unsigned int d = 0; d < 2; ++d)
-      rate -= frame.normal[d]
-              * ((velocity[segment.lower[1]][d] - velocity[segment.lower[0]][d])
-                 + (velocity[segment.upper[1]][d]
-                    - velocity[segment.upper[0]][d]));
-    return rate * frame.inverse_length;
+    return -frame.inverse_length
+           * (frame.normal
+              * ((velocity[segment.lower[1]] - velocity[segment.lower[0]])
+                 + (velocity[segment.upper[1]] - velocity[segment.upper[0]])));
   }
 
   /**
@@ -73,19 +67,16 @@ namespace quoin
    * a joint that turns does work that it does not store, and a couple of
    * traction times slip acts on nothing.
    */
-  template <typename Vector>
-  void subtract_couple(const JointSegment &segment, const JointFrame &frame,
-                       const double couple, Vector *force)
+  inline void subtract_couple(const JointSegment &segment,
+                              const JointFrame &frame, const double couple,
+                              dealii::Tensor<1, 2> *force)
   {
-    const double f = couple * frame.inverse_length;
-    for (unsigned int d = 0; d < 2; ++d)
-    {
-      const double end = f * frame.normal[d];
-      force[segment.lower[0]][d] -= end;
-      force[segment.upper[0]][d] -= end;
-      force[segment.lower[1]][d] += end;
-      force[segment.upper[1]][d] += end;
-    }
+    const dealii::Tensor<1, 2> end
+        = couple * frame.inverse_length * frame.normal;
+    force[segment.lower[0]] -= end;
+    force[segment.upper[0]] -= end;
+    force[segment.lower[1]] += end;
+    force[segment.upper[1]] += end;
   }
 } // namespace quoin
 

@@ -268,7 +268,7 @@ namespace quoin
       const JointFrame local = joint_frame(segment, state.nodes.data());
       const auto [normal_stiffness, shear_stiffness]
           = stiffness_bound(all_laws[segment.set]);
-      const double *n = local.normal, *s = local.tangent;
+      const dealii::Tensor<1, 2> &n = local.normal, &s = local.tangent;
       for (unsigned int k = 0; k < 2; ++k)
       {
         const unsigned int a = segment.lower[k], b = segment.upper[k];

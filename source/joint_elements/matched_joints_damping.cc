@@ -29,26 +29,20 @@ namespace quoin
     {
       if (!acts(2 * i + k))
         continue;
-      const dealii::Tensor<1, 2> &a = velocity[segment.lower[k]];
-      const dealii::Tensor<1, 2> &b = velocity[segment.upper[k]];
+      const dealii::Tensor<1, 2> v
+          = velocity[segment.upper[k]] - velocity[segment.lower[k]];
       Motion motion;
       motion.gap                  = joint_gap(segment, local, nodes, k);
       const auto &[opening, slip] = motion.gap;
-      motion.rate
-          = { { (b[0] - a[0]) * local.normal[0]
-                    + (b[1] - a[1]) * local.normal[1] - slip * turn,
-                (b[0] - a[0]) * local.tangent[0]
-                    + (b[1] - a[1]) * local.tangent[1] + opening * turn } };
-      const auto [normal, shear] = traction(2 * i + k, motion);
-      const double sigma         = segment.area[k] * normal;
-      const double tau           = segment.area[k] * shear;
+      motion.rate                 = { { v * local.normal - slip * turn,
+                                        v * local.tangent + opening * turn } };
+      const auto [normal, shear]  = traction(2 * i + k, motion);
+      const double sigma          = segment.area[k] * normal;
+      const double tau            = segment.area[k] * shear;
       couple += tau * opening - sigma * slip;
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const double f = sigma * local.normal[d] + tau * local.tangent[d];
-        force[segment.lower[k]][d] += f;
-        force[segment.upper[k]][d] -= f;
-      }
+      const dealii::Tensor<1, 2> f = sigma * local.normal + tau * local.tangent;
+      force[segment.lower[k]] += f;
+      force[segment.upper[k]] -= f;
     }
     subtract_couple(segment, local, couple, force);
   }

@@ -92,8 +92,8 @@ namespace quoin
     double second_turn(const JointFrame &frame, const unsigned int i,
                        const unsigned int j)
     {
-      const double sign = (i / 2 + j / 2) % 2 == 1 ? -1. : 1.;
-      const double *n = frame.normal, *s = frame.tangent;
+      const double sign             = (i / 2 + j / 2) % 2 == 1 ? -1. : 1.;
+      const dealii::Tensor<1, 2> &n = frame.normal, &s = frame.tangent;
       return -sign * (s[i % 2] * n[j % 2] + n[i % 2] * s[j % 2])
              * frame.inverse_length * frame.inverse_length;
     }

@@ -102,7 +102,7 @@ namespace quoin
     {
       for (unsigned int i = 0; i < divided_pairs.size(); ++i)
         if (divided_pairs[i] != none)
-          for (unsigned int d = 0; d < 2; ++d)
+          for (const unsigned int d : { 0, 1 })
             use(springs[2 * i + d], pairs[divided_pairs[i]].springs[d]);
     };
     for_each([](double &all, const double own) { all = own; });
@@ -118,7 +118,7 @@ namespace quoin
     const Pair &pair   = pairs[item_pairs[item]];
     const double xi[2] = { damping.normal, damping.shear };
     std::array<double, 2> result{};
-    for (unsigned int d = 0; d < 2; ++d)
+    for (const unsigned int d : { 0, 1 })
       result[d] = std::min(2. * xi[d] * std::sqrt(pair.mass / pair.springs[d]),
                            item_impedance[item][d] / stiffness[d]);
     return result;

@@ -17,10 +17,11 @@ namespace quoin
   template <int lanes>
   struct SegmentLanes
   {
-    using F     = LaneFunctions<lanes>;
-    using L     = Lanes<lanes>;
-    using Value = typename F::Value;
-    using Bits  = typename F::Bits;
+    static constexpr unsigned int dim = 2;
+    using F                           = LaneFunctions<lanes>;
+    using L                           = Lanes<lanes>;
+    using Value                       = typename F::Value;
+    using Bits                        = typename F::Bits;
 
     Value normal[2];
     Value inverse_length;      /**< see JointFrame [1/m] */
@@ -54,8 +55,8 @@ namespace quoin
             },
             node[i]);
       const Value none{};
-      Value edge[2];
-      for (unsigned int d = 0; d < 2; ++d)
+      Value edge[dim];
+      for (unsigned int d = 0; d < dim; ++d)
         edge[d] = (node[1][d] - node[0][d]) + (node[3][d] - node[2][d])
                   + (node[1][2 + d] - node[0][2 + d])
                   + (node[3][2 + d] - node[2][2 + d]);
@@ -66,8 +67,8 @@ namespace quoin
       normal[1]      = -edge[0] * inverse_length;
       for (unsigned int k = 0; k < 2; ++k)
       {
-        Value gap[2];
-        for (unsigned int d = 0; d < 2; ++d)
+        Value gap[dim];
+        for (unsigned int d = 0; d < dim; ++d)
           gap[d] = (node[2 + k][d] - node[k][d])
                    + (node[2 + k][2 + d] - node[k][2 + d]);
         opening[k] = gap[0] * normal[0] + gap[1] * normal[1];
@@ -105,11 +106,11 @@ namespace quoin
                                  Value (&slip_rate)[2]) const
     {
       const char *base = reinterpret_cast<const char *>(velocity);
-      Value v[4][2];
+      Value v[4][dim];
       for (unsigned int i = 0; i < 4; ++i)
         L::load(base, 1, group.nodes[i], v[i][0], v[i][1]);
       Value turn{};
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         turn -= normal[d] * ((v[1][d] - v[0][d]) + (v[3][d] - v[2][d]));
       turn *= inverse_length;
       for (unsigned int k = 0; k < 2; ++k)

@@ -410,7 +410,7 @@ namespace quoin
                          : load_component(section, name, quantity);
       };
       const std::string names[] = { "Horizontal", "Vertical" };
-      for (unsigned int d = 0; d < 2; ++d)
+      for (const unsigned int d : { 0, 1 })
         if (entries.reads_if(is_platen || is_motion || is_force))
           enter_component(
               entries, names[d], "free", load.components[d],
@@ -485,7 +485,7 @@ namespace quoin
       if (entries.reads_if(load.type == LoadType::viscous_boundary))
       {
         const std::string names[] = { "normal", "shear" };
-        for (unsigned int d = 0; d < 2; ++d)
+        for (const unsigned int d : { 0, 1 })
           enter_component(
               entries, "Incident " + names[d] + " velocity", "0",
               load.components[d],

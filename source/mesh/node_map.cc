@@ -266,7 +266,7 @@ namespace quoin
       {
         found.nodes = part;
         for (unsigned int k = 0; k < 3; ++k)
-          found.corners[k] = { { place[part[k]][0], place[part[k]][1] } };
+          found.corners[k] = place[part[k]];
         for (found.segment = 0; found.segment < segments.size();
              ++found.segment)
           if (clip(segments[found.segment], found))

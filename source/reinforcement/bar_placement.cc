@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/reinforcement/bar_placement.h>
@@ -17,7 +18,7 @@ namespace quoin
         at a joint, and its ends outside of blocks, by its length [-]. */
     constexpr double touch_tolerance = 1e-6, end_tolerance = 1e-3;
 
-    using Vector = std::array<double, 2>;
+    using Vector = dealii::Tensor<1, 2>;
 
     /** Part of a bar in one block, as shares of its length. */
     struct Run
@@ -107,12 +108,9 @@ namespace quoin
       return *best;
     }
 
-    BarHost make_host(const Vector &point, const CrossedCell &cell,
+    BarHost make_host(const dealii::Point<2> &point, const CrossedCell &cell,
                       const NodeMap<2> &nodes)
     {
-      const auto twice_area
-          = [](const Vector &p, const Vector &q, const Vector &r)
-      { return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]); };
       BarHost host;
       host.X     = point;
       host.block = cell.block;
@@ -134,13 +132,12 @@ namespace quoin
   } // namespace
 
   /** Displacement of a point of a cell [m]. */
-  std::array<double, 2> displacement(const BarHost &host,
-                                     const NodeRecord<2> *nodes)
+  dealii::Tensor<1, 2> displacement(const BarHost &host,
+                                    const NodeRecord<2> *nodes)
   {
-    Vector u{};
+    Vector u;
     for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int d = 0; d < 2; ++d)
-        u[d] += host.weights[k] * nodes[host.nodes[k]].u[d];
+      u += host.weights[k] * nodes[host.nodes[k]].u;
     return u;
   }
 
@@ -163,12 +160,11 @@ namespace quoin
                        + " outside of all blocks. Move that end into a block.");
 
     Bar bar;
-    const Vector line{ { ends[1][0] - ends[0][0], ends[1][1] - ends[0][1] } };
-    const double length = std::hypot(line[0], line[1]);
-    bar.direction       = { { line[0] / length, line[1] / length } };
-    const auto point    = [&](const double at) {
-      return Vector{ { ends[0][0] + at * line[0], ends[0][1] + at * line[1] } };
-    };
+    const Vector line   = ends[1] - ends[0];
+    const double length = line.norm();
+    bar.direction       = line / length;
+    const auto point    = [&](const double at)
+    { return dealii::Point<2>(ends[0] + at * line); };
     for (const CrossedCell &cell : crossed)
       if (thickness[cell.group] != thickness[crossed.front().group])
         throw InputError(where

@@ -13,7 +13,7 @@ namespace quoin
 {
   namespace
   {
-    using Vector = std::array<double, 2>;
+    using Vector = dealii::Tensor<1, 2>;
   }
 
   double cable_value(const Reinforcement &reinforcement, const State<2> &state,

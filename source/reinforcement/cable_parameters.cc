@@ -185,22 +185,18 @@ namespace quoin
               = std::max(1U, places.number - (is_closed ? 0 : 1));
           const double angle
               = (places.angles[0] + turn * i / n_gaps) * constants::degree;
-          const std::array<double, 2> t{ { std::cos(angle), std::sin(angle) } };
-          BarEnds ends;
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            ends[0][d] = places.centre[d] + places.radius * t[d];
-            ends[1][d] = ends[0][d] + places.length * t[d];
-          }
-          result.push_back(ends);
+          const dealii::Point<2> t(std::cos(angle), std::sin(angle));
+          const dealii::Point<2> head
+              = dealii::Point<2>(places.centre[0], places.centre[1])
+                + places.radius * t;
+          result.push_back({ { head, head + places.length * t } });
         }
         else
         {
-          BarEnds ends{ { places.from, places.to } };
-          for (auto &end : ends)
-            for (unsigned int d = 0; d < 2; ++d)
-              end[d] += i * places.step[d];
-          result.push_back(ends);
+          const dealii::Point<2> step(i * places.step[0], i * places.step[1]);
+          result.push_back(
+              { { dealii::Point<2>(places.from[0], places.from[1]) + step,
+                  dealii::Point<2>(places.to[0], places.to[1]) + step } });
         }
       return result;
     }
@@ -212,7 +208,7 @@ namespace quoin
       constexpr double share = 0.25, most_elements = 1000.;
       const BarLaw &law  = cable.law;
       const auto &[a, b] = cable.bars[0];
-      const double whole = std::hypot(b[0] - a[0], b[1] - a[1]);
+      const double whole = a.distance(b);
       if (law.bond_stiffness == 0.)
         return whole;
       return std::max(share * std::sqrt(law.stiffness / law.bond_stiffness),
@@ -221,10 +217,8 @@ namespace quoin
 
     void check(const CableParameters &cable, const ParameterSection &section)
     {
-      const BarLaw &law = cable.law;
-      const double length
-          = std::hypot(cable.bars[0][1][0] - cable.bars[0][0][0],
-                       cable.bars[0][1][1] - cable.bars[0][0][1]);
+      const BarLaw &law   = cable.law;
+      const double length = cable.bars[0][0].distance(cable.bars[0][1]);
       if (cable.free_length >= length
           && !(cable.free_length == length && law.anchor_stiffness > 0.))
         section.fail("Free length", "must be less than the length of the bar, "

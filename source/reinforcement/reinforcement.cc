@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
@@ -14,24 +15,18 @@ namespace quoin
 {
   namespace
   {
-    using Vector = std::array<double, 2>;
-
-    double dot(const Vector &a, const Vector &b)
-    {
-      return a[0] * b[0] + a[1] * b[1];
-    }
+    using Vector = dealii::Tensor<1, 2>;
 
     /** @p a turned by a right angle, anticlockwise. */
     Vector turned(const Vector &a)
     {
-      return { { -a[1], a[0] } };
+      return dealii::Point<2>(-a[1], a[0]);
     }
 
     Vector relative(const BarHost &near, const BarHost &far,
                     const NodeRecord<2> *nodes)
     {
-      const Vector a = displacement(near, nodes), b = displacement(far, nodes);
-      return { { b[0] - a[0], b[1] - a[1] } };
+      return displacement(far, nodes) - displacement(near, nodes);
     }
 
     /** Takes a bar out of blocks that are absent: all of it where its far end
@@ -127,17 +122,13 @@ namespace quoin
         continue;
       now.installed = 1;
       for (unsigned int e = 0; e < last; ++e)
-      {
-        const Vector u
-            = relative(bar.hosts[e], bar.hosts[e + 1], state.nodes.data());
-        std::copy(u.begin(), u.end(), now.start.begin() + 2 * e);
-      }
+        set_vector(
+            now.start, e,
+            relative(bar.hosts[e], bar.hosts[e + 1], state.nodes.data()));
       for (unsigned int d = 0; d < bar.dowels.size(); ++d)
-      {
-        const Vector u = relative(bar.dowels[d].near, bar.dowels[d].far,
-                                  state.nodes.data());
-        std::copy(u.begin(), u.end(), now.dowel_start.begin() + 2 * d);
-      }
+        set_vector(now.dowel_start, d,
+                   relative(bar.dowels[d].near, bar.dowels[d].far,
+                            state.nodes.data()));
     }
     if (has_friction)
       update_pressure(state);
@@ -175,8 +166,7 @@ namespace quoin
       for (unsigned int i = 0; i < bars[b].nodes.size(); ++i)
         if (const unsigned int node = bars[b].nodes[i];
             node < node_map->n_owned())
-          for (unsigned int d = 0; d < 2; ++d)
-            result += work.force[2 * i + d] * state.velocity[node][d];
+          result += vector_at(work.force, i) * state.velocity[node];
     }
     return result;
   }
@@ -212,11 +202,10 @@ namespace quoin
                                      const Vector &force) const
   {
     for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        work.force[2 * near.places[k] + d] += near.weights[k] * force[d];
-        work.force[2 * far.places[k] + d] -= far.weights[k] * force[d];
-      }
+    {
+      add_to_vector(work.force, near.places[k], near.weights[k] * force);
+      add_to_vector(work.force, far.places[k], -far.weights[k] * force);
+    }
   }
 
   void Reinforcement::add_spring(const Bar &bar, const BarHost &near,
@@ -232,8 +221,8 @@ namespace quoin
     }
     for (const auto &[row, v] : terms)
       for (const auto &[column, w] : terms)
-        for (unsigned int d = 0; d < 2; ++d)
-          for (unsigned int c = 0; c < 2; ++c)
+        for (const unsigned int d : { 0, 1 })
+          for (const unsigned int c : { 0, 1 })
             work.stiffness[(row + d) * n + column + c]
                 += k * v * w * axis[d] * axis[c];
   }
@@ -255,27 +244,22 @@ namespace quoin
     for (unsigned int e = 0; e < m; ++e)
     {
       const BarHost &near = bar.hosts[e], &far = bar.hosts[e + 1];
-      const Vector u = relative(near, far, nodes);
-      Vector at_start, moved, now;
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        at_start[d] = far.X[d] - near.X[d] + state.start[2 * e + d];
-        moved[d]    = u[d] - state.start[2 * e + d];
-        now[d]      = at_start[d] + moved[d];
-      }
-      work.span[e] = std::hypot(now[0], now[1]);
+      const Vector start    = vector_at(state.start, e);
+      const Vector at_start = far.X - near.X + start;
+      const Vector moved    = relative(near, far, nodes) - start;
+      const Vector now      = at_start + moved;
+      work.span[e]          = now.norm();
       // Of squares, so that a small elongation keeps its digits.
-      work.stretch[e] = (2. * dot(at_start, moved) + dot(moved, moved))
-                        / (work.span[e] + std::hypot(at_start[0], at_start[1]));
-      work.axis[e] = { { now[0] / work.span[e], now[1] / work.span[e] } };
+      work.stretch[e] = (2. * (at_start * moved) + moved * moved)
+                        / (work.span[e] + at_start.norm());
+      work.axis[e] = now / work.span[e];
     }
     BarDissipation lost
         = quoin::update(bar.law, bar.chain, work.stretch, state,
                         with_stiffness ? &work.tangent : nullptr, is_static);
     for (unsigned int e = 0; e < m; ++e)
       add_pair_force(bar.hosts[e], bar.hosts[e + 1],
-                     { { state.force[e] * work.axis[e][0],
-                         state.force[e] * work.axis[e][1] } });
+                     state.force[e] * work.axis[e]);
     if (with_stiffness)
     {
       using Matrix    = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
@@ -283,7 +267,7 @@ namespace quoin
       Matrix gradient = Matrix::Zero(m, n);
       for (unsigned int e = 0; e < m; ++e)
         for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int d = 0; d < 2; ++d)
+          for (const unsigned int d : { 0, 1 })
           {
             const BarHost &near = bar.hosts[e], &far = bar.hosts[e + 1];
             gradient(e, 2 * near.places[k] + d)
@@ -311,14 +295,13 @@ namespace quoin
     for (unsigned int i = 0; i < bar.dowels.size(); ++i)
     {
       const BarHost &near = bar.dowels[i].near, &far = bar.dowels[i].far;
-      Vector u = relative(near, far, nodes);
-      for (unsigned int d = 0; d < 2; ++d)
-        u[d] -= state.dowel_start[2 * i + d];
+      const Vector u
+          = relative(near, far, nodes) - vector_at(state.dowel_start, i);
       double *force   = &state.dowel_force[2 * i],
              *plastic = &state.dowel_plastic[2 * i],
              *motion  = &state.dowel_motion[2 * i];
-      motion[0]       = dot(u, t);
-      motion[1]       = dot(u, across);
+      motion[0]       = u * t;
+      motion[1]       = u * across;
       if (state.dowel_broken[i] || state.broken[bar.dowels[i].element])
       {
         state.dowel_broken[i] = 1;
@@ -340,8 +323,7 @@ namespace quoin
             += 0.5 * (force[c] + now.force) * (now.plastic - plastic[c]);
         force[c]   = now.force;
         plastic[c] = now.plastic;
-        add_pair_force(near, far,
-                       { { now.force * axis[0], now.force * axis[1] } });
+        add_pair_force(near, far, now.force * axis);
         if (with_stiffness)
           add_spring(bar, near, far, axis, now.tangent);
       };
@@ -351,10 +333,8 @@ namespace quoin
       {
         const double length = law.active_length,
                      span   = std::hypot(length + motion[0], motion[1]);
-        Vector axis;
-        for (unsigned int d = 0; d < 2; ++d)
-          axis[d]
-              = ((length + motion[0]) * t[d] + motion[1] * across[d]) / span;
+        const Vector axis
+            = ((length + motion[0]) * t + motion[1] * across) / span;
         pull(0, law.dowel_axial_stiffness, law.dowel_axial_strength,
              (2. * length * motion[0] + motion[0] * motion[0]
               + motion[1] * motion[1])
@@ -389,8 +369,7 @@ namespace quoin
            state);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         if (nodes[i] < node_map->n_owned())
-          for (unsigned int d = 0; d < 2; ++d)
-            forces.force[nodes[i]][d] += work.force[2 * i + d];
+          forces.force[nodes[i]] += vector_at(work.force, i);
     }
     if (has_friction)
       update_pressure(state);

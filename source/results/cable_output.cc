@@ -25,9 +25,7 @@ namespace quoin
     grid.time      = time;
     grid.cell_type = VtuCellType::line;
     for (std::size_t i = 0; i < fields.position.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        grid.points.push_back(fields.position[i][d]
-                              + fields.displacement[i][d]);
+      append_vector(grid.points, fields.position[i] + fields.displacement[i]);
     grid.cells.resize(fields.position.size());
     std::iota(grid.cells.begin(), grid.cells.end(), 0);
     grid.point_data = { { "displacement", 2, flat(fields.displacement) },

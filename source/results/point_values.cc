@@ -60,7 +60,7 @@ namespace quoin
       const SpaceJointFace &face       = joints.faces()[p / 3];
       const SpaceJointHistory &history = state.get<SpaceJointHistory>();
       SpaceJointGap gap = joint_gaps(face, state.nodes.data())[p % 3];
-      for (unsigned int d = 0; d < 2; ++d)
+      for (const unsigned int d : { 0, 1 })
         gap[1 + d] -= slip_at_origin(state, p, d);
       switch (component)
       {

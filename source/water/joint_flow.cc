@@ -68,8 +68,7 @@ namespace quoin
       {
         face.lower[k]  = node_map.exchange().global(segment.lower[k]);
         face.upper[k]  = node_map.exchange().global(segment.upper[k]);
-        const auto &X  = node_map.point(segment.lower[k]);
-        face.points[k] = { { X[0], X[1] } };
+        face.points[k] = node_map.point(segment.lower[k]);
       }
       face.blocks    = joint.blocks;
       face.areas     = segment.area;
@@ -182,7 +181,7 @@ namespace quoin
 
   void JointFlow::find_boundaries()
   {
-    std::vector<std::array<double, 2>> place(elevation.size());
+    std::vector<dealii::Point<2>> place(elevation.size());
     for (unsigned int c = 0; c < faces.size(); ++c)
       for (unsigned int k = 0; k < 2; ++k)
         place[flow_network.channels()[c].nodes[k]] = faces[c].points[k];
@@ -432,9 +431,9 @@ namespace quoin
           p[k] = std::max(p[k], 0.);
       }
       // The normal points from the lower to the upper side.
-      const double normal[2]
-          = { (face.points[1][1] - face.points[0][1]) / channel.length,
-              (face.points[0][0] - face.points[1][0]) / channel.length };
+      const dealii::Point<2> normal(
+          (face.points[1][1] - face.points[0][1]) / channel.length,
+          (face.points[0][0] - face.points[1][0]) / channel.length);
       for (unsigned int k = 0; k < 2; ++k)
       {
         // Of linear faces the integral of a linear pressure; halves of
@@ -446,8 +445,7 @@ namespace quoin
         for (const auto &[node, sign] :
              { std::pair(face.lower[k], -1.), std::pair(face.upper[k], 1.) })
           if (exchange.owns(node))
-            for (unsigned int d = 0; d < 2; ++d)
-              sum[exchange.local(node)][d] += sign * size * normal[d];
+            sum[exchange.local(node)] += sign * size * normal;
       }
     }
     force_nodes.clear();
@@ -577,8 +575,7 @@ namespace quoin
                             dealii::Tensor<1, 2> *force) const
   {
     for (unsigned int i = 0; i < forces.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        force[force_nodes[i]][d] += forces[i][d];
+      force[force_nodes[i]] += forces[i];
   }
 
   double JointFlow::external_power(const TimePoint &,
@@ -586,8 +583,7 @@ namespace quoin
   {
     double power = 0.;
     for (unsigned int i = 0; i < forces.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        power += forces[i][d] * velocity[force_nodes[i]][d];
+      power += forces[i] * velocity[force_nodes[i]];
     return power;
   }
 

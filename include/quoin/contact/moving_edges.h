@@ -35,6 +35,8 @@ namespace quoin
   class MovingEdges
   {
   public:
+    static constexpr unsigned int dim = 2;
+
     static constexpr unsigned int most_lanes = 8;
 
     /** An edge that takes part, where it is now; see EdgeLanes. */

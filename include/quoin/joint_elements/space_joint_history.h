@@ -77,7 +77,7 @@ namespace quoin
     point.normal_traction = history.normal_traction[p];
     point.plastic_opening = history.plastic_opening[p];
     point.state           = history.state[p];
-    for (unsigned int d = 0; d < 2; ++d)
+    for (const unsigned int d : { 0, 1 })
     {
       point.shear_traction[d] = history.shear_traction[2 * p + d];
       point.plastic_slip[d]   = history.plastic_slip[2 * p + d];
@@ -94,7 +94,7 @@ namespace quoin
     history.normal_traction[p] = point.normal_traction;
     history.plastic_opening[p] = point.plastic_opening;
     history.state[p]           = point.state;
-    for (unsigned int d = 0; d < 2; ++d)
+    for (const unsigned int d : { 0, 1 })
     {
       history.shear_traction[2 * p + d] = point.shear_traction[d];
       history.plastic_slip[2 * p + d]   = point.plastic_slip[d];

@@ -120,7 +120,7 @@ namespace quoin
     std::uint64_t number;      /**< of the cell in the whole mesh */
     std::array<unsigned int, 3> nodes; /**< global */
     /** Corners x, y of the cell [m]. */
-    std::array<std::array<double, 2>, 3> corners;
+    std::array<dealii::Point<2>, 3> corners;
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)

@@ -22,8 +22,8 @@ namespace quoin
     std::array<unsigned int, 3> places; /**< of the nodes in Bar::nodes */
     std::array<double, 3> weights;      /**< [-] */
     unsigned int block;
-    unsigned int cell;       /**< own deformable cell, or NodeMap::none */
-    std::array<double, 2> X; /**< [m] */
+    unsigned int cell;  /**< own deformable cell, or NodeMap::none */
+    dealii::Point<2> X; /**< [m] */
   };
   /** Both sides of a joint where a bar crosses it. */
   struct BarDowel
@@ -37,7 +37,7 @@ namespace quoin
     unsigned int cable = 0; /**< number of its section */
     BarLaw law;             /**< in the thickness of the model */
     double number;          /**< of bars in that thickness [-] */
-    std::array<double, 2> direction;
+    dealii::Tensor<1, 2> direction;
     BarChain chain;
     std::vector<BarHost> hosts;
     std::vector<BarDowel> dowels;
@@ -46,8 +46,8 @@ namespace quoin
   };
 
   /** Displacement of a point of a cell [m]. */
-  std::array<double, 2> displacement(const BarHost &host,
-                                     const NodeRecord<2> *nodes);
+  dealii::Tensor<1, 2> displacement(const BarHost &host,
+                                    const NodeRecord<2> *nodes);
 
   /** The bar of @p given from @p ends[0] to @p ends[1] [m] through the cells
       @p crossed; @p thickness of each cell group [m]. Throws an InputError

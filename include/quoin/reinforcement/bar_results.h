@@ -31,7 +31,7 @@ namespace quoin
   struct CableFields
   {
     // Each element has two points.
-    std::vector<std::array<double, 2>> position, displacement;
+    std::vector<dealii::Tensor<1, 2>> position, displacement;
     std::vector<double> slip;       /**< of the bond [m] */
     std::vector<double> bond_force; /**< by length, of one bar [N/m] */
     std::vector<std::uint8_t> bond; /**< see bond_state; 3: there is none */

@@ -7,6 +7,8 @@
 #include <quoin/base/parameter_section.h>
 #include <quoin/reinforcement/bar_chain.h>
 
+#include <deal.II/base/point.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -14,7 +16,7 @@
 namespace quoin
 {
   /** Ends of a bar: its head, where a face plate is, and its far end [m]. */
-  using BarEnds = std::array<std::array<double, 2>, 2>;
+  using BarEnds = std::array<dealii::Point<2>, 2>;
 
   /** One bar or a pattern of equal ones: a subsection of 'Reinforcement'. */
   struct CableParameters

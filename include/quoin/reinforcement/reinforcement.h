@@ -105,8 +105,8 @@ namespace quoin
     struct Work
     {
       std::vector<double> stretch, tangent, force, stiffness;
-      std::vector<std::array<double, 2>> axis; /**< of elements, present */
-      std::vector<double> span;                /**< present length [m] */
+      std::vector<dealii::Tensor<1, 2>> axis; /**< of elements, present */
+      std::vector<double> span;               /**< present length [m] */
     };
 
     /** Updates a bar and finds its forces in work; @p is_static: from the
@@ -118,9 +118,9 @@ namespace quoin
                     bool with_stiffness, BarDissipation &lost) const;
     /** Adds a spring @p k along @p axis between two points to the stiffness. */
     void add_spring(const Bar &bar, const BarHost &near, const BarHost &far,
-                    const std::array<double, 2> &axis, double k) const;
+                    const dealii::Tensor<1, 2> &axis, double k) const;
     void add_pair_force(const BarHost &near, const BarHost &far,
-                        const std::array<double, 2> &force) const;
+                        const dealii::Tensor<1, 2> &force) const;
     /** Updates the pressure on the bond of all bars. Collective. */
     void update_pressure(State<2> &state) const;
     void book(const BarDissipation &lost, State<2> &state) const;

@@ -183,7 +183,7 @@ namespace quoin
     struct Face
     {
       std::array<unsigned int, 2> lower, upper; /**< global nodes */
-      std::array<std::array<double, 2>, 2> points;
+      std::array<dealii::Point<2>, 2> points;
       std::array<unsigned int, 2> blocks;
       std::array<double, 2> areas; /**< of the points [m^2] */
       unsigned int number = 0;     /**< of the joint face on all ranks */
