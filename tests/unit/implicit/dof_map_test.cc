@@ -12,10 +12,10 @@ using namespace quoin::test;
 
 namespace
 {
-  constexpr auto velocity     = LoadQuantity::velocity;
-  constexpr auto displacement = LoadQuantity::displacement;
-  constexpr auto given_force  = LoadQuantity::force;
-  constexpr double degree     = 3.14159265358979323846 / 180.;
+  constexpr auto velocity        = LoadQuantity::velocity;
+  constexpr auto as_displacement = LoadQuantity::displacement;
+  constexpr auto given_force     = LoadQuantity::force;
+  constexpr double degree        = 3.14159265358979323846 / 180.;
 
   using Values = BodyValues;
 
@@ -94,7 +94,7 @@ namespace
 
 TEST(DofMap, GivenChangeOfADisplacementIsThatOfItsValues)
 {
-  const auto kinked = driven(displacement, "if(t < 0.5, 2*t, 1) + 3*T");
+  const auto kinked = driven(as_displacement, "if(t < 0.5, 2*t, 1) + 3*T");
   EXPECT_NEAR(given_change(kinked, 0.2, 0.4, 7.), 0.4 + 0.6, 1e-13);
   EXPECT_NEAR(given_change(kinked, 0.4, 0.9, 7.), 0.2 + 1.5, 1e-13);
   EXPECT_NEAR(given_change(kinked, 0.9, 0.4, 7.), -1.7, 1e-13);
@@ -196,7 +196,7 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
 {
   // Pushed to the right by 0.1 m/s, turned by 30 degrees a second, loaded.
   Bodies run(driven(velocity, "0.1"), driven(given_force, "-4e3*t"),
-             driven(displacement, "30*t"));
+             driven(as_displacement, "30*t"));
   const RigidBody &beam = run.dof_map->bodies()[0];
   EXPECT_EQ(beam.given, (std::array<bool, 3>{ { true, false, true } }));
   EXPECT_EQ(body_loads(run.dof_map->bodies(), { 2., 2. })[0],

@@ -63,14 +63,14 @@ namespace
    * A bar of 2 m, held at the left, glued to a block that cannot turn, and
    * after the joint that softens a block that is pulled away.
    */
-  struct Bar
+  struct PulledBar
   {
     BlockMesh<2> mesh;
     std::unique_ptr<ImplicitRun> run;
 
     /** @p weak: that strength the lower half of the joint has. */
-    explicit Bar(const ImplicitParameters &numbers,
-                 const double weak = strength)
+    explicit PulledBar(const ImplicitParameters &numbers,
+                       const double weak = strength)
     {
       const std::string groups[] = { "bar", "middle", "end" };
       const std::string curves[] = { "left", "glue", "joint" };
@@ -137,7 +137,7 @@ namespace
 
 TEST(SnapBack, AJumpLosesWhatTheSpringsHadTooMuch)
 {
-  Bar bar(numbers(PathFollowing::never, true));
+  PulledBar bar(numbers(PathFollowing::never, true));
   bar.begin();
   bar.run->finish();
   // Below the peak a short way may lead to the next equilibrium; one jumps.
@@ -171,7 +171,7 @@ TEST(SnapBack, AJumpLosesWhatTheSpringsHadTooMuch)
 
 TEST(SnapBack, WithoutEitherTheRunFailsAtThePeak)
 {
-  Bar bar(numbers(PathFollowing::never, false));
+  PulledBar bar(numbers(PathFollowing::never, false));
   bar.begin();
   try
   {
@@ -195,7 +195,7 @@ TEST(SnapBack, ARunThatIsResumedIsBitwiseTheSame)
 {
   const auto values = numbers(PathFollowing::never, true);
   const double weak = 0.3 * strength;
-  Bar whole(values, weak);
+  PulledBar whole(values, weak);
   whole.begin();
   std::vector<State<2>> states;
   while (!whole.run->solver.has_ended(whole.run->state))
@@ -208,7 +208,7 @@ TEST(SnapBack, ARunThatIsResumedIsBitwiseTheSame)
   // On the way up, where it jumps, and late.
   for (const double share : { 0.1, 0.5, 0.6, 0.9 })
   {
-    Bar other(values, weak);
+    PulledBar other(values, weak);
     other.begin();
     other.run->state = states[share * states.size()];
     other.run->solver.resume_stage(stage_with({ "left", "guide", "pull" }),
@@ -221,7 +221,7 @@ TEST(SnapBack, ARunThatIsResumedIsBitwiseTheSame)
 TEST(SnapBack, AStageDoesNotEndWithinAJump)
 {
   // The stage ends so soon after the peak that the jump is one to its end.
-  Bar bar(numbers(PathFollowing::never, true));
+  PulledBar bar(numbers(PathFollowing::never, true));
   StageParameters stage = stage_with({ "left", "guide", "pull" });
   stage.duration        = 1.0005 * strength * compliance / speed;
   bar.run->solver.begin_stage(stage, nullptr, bar.run->state);

@@ -5,6 +5,7 @@
 
 #include "../model/test_models.h"
 
+#include <quoin/reinforcement/bar_results.h>
 #include <quoin/reinforcement/reinforcement.h>
 
 #include <random>

@@ -14,9 +14,9 @@ using constants::degree;
 
 namespace
 {
-  constexpr auto displacement = HistoryQuantity::block_displacement;
-  constexpr auto velocity     = HistoryQuantity::block_velocity;
-  constexpr auto force        = HistoryQuantity::block_force;
+  constexpr auto moves    = HistoryQuantity::block_displacement;
+  constexpr auto velocity = HistoryQuantity::block_velocity;
+  constexpr auto force    = HistoryQuantity::block_force;
 
   /** Columns x, y and rotation or moment of @p quantity. */
   void add(std::vector<HistoryParameters> &columns,
@@ -73,9 +73,9 @@ TEST(BlockHistories, RotationCountsTurnsOfADeformableBlock)
   TestRun run(mesh, two_blocks(), {});
   run.begin(stage_with({}));
   std::vector<HistoryParameters> columns;
-  add(columns, displacement, "b");
+  add(columns, moves, "b");
   add(columns, velocity, "b");
-  add(columns, displacement, "a");
+  add(columns, moves, "a");
   BlockHistories histories(columns, both_blocks(run.nodes), run.model, nullptr);
   for (const double angle : { 100., 200., 370., 540., 700., 610. })
   {
@@ -172,8 +172,8 @@ TEST(BlockHistories, HaveNoValueOfADeletedBlock)
   TestRun run(mesh, two_blocks(), {});
   run.begin(stage_with({}));
   std::vector<HistoryParameters> columns;
-  add(columns, displacement, "a");
-  add(columns, displacement, "b");
+  add(columns, moves, "a");
+  add(columns, moves, "b");
   add(columns, force, "a", "b");
   BlockHistories histories(columns, both_blocks(run.nodes), run.model, nullptr);
   const auto row = [&]()
