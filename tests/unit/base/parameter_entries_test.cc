@@ -75,18 +75,12 @@ TEST(ParameterEntries, DeclareTheValuesOfANewObjectAsDefaults)
   dealii::ParameterHandler prm;
   declare_entries(prm, Wall::enter);
   const std::vector<std::array<const char *, 2>> expected
-      = { { { "Bond", "running" } },
-          { { "Offset", "0.0005" } },
-          { { "Height", "2.5" } },
-          { { "Ratio", "1e-7" } },
-          { { "Angle", "30" } },
-          { { "End", "never" } },
-          { { "Courses", "10000000" } },
-          { { "Dry", "no" } },
-          { { "Joints", "0, 0.01" } },
-          { { "Name", "wall" } },
-          { { "Parts", "" } },
-          { { "Links", "" } } };
+      = { { { "Bond", "running" } },     { { "Offset", "0.0005" } },
+          { { "Height", "2.5" } },       { { "Ratio", "1e-7" } },
+          { { "Angle", "30" } },         { { "End", "never" } },
+          { { "Courses", "10000000" } }, { { "Dry", "no" } },
+          { { "Joints", "0, 0.01" } },   { { "Name", "wall" } },
+          { { "Parts", "" } },           { { "Links", "" } } };
   for (const auto &[name, preset] : expected)
     EXPECT_EQ(prm.get(name), preset) << name;
 }
