@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
+#include <quoin/operators/archive.h>
 #include <quoin/model/free_bodies.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loading/constraint_checks.h>

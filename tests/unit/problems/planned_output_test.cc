@@ -6,6 +6,7 @@
 
 #include <quoin/problems/planned_output.h>
 #include <quoin/results/field_output.h>
+#include <quoin/results/measurements.h>
 
 #include <filesystem>
 
