@@ -279,7 +279,7 @@ namespace
   dealii::Tensor<1, 2> slide(const dealii::Point<2> &X, const double way)
   {
     const int column = static_cast<int>(X[0] / 1.02);
-    return { -0.023 * column, column % 2 == 0 ? way : -way };
+    return dealii::Point<2>(-0.023 * column, column % 2 == 0 ? way : -way);
   }
 
   unsigned int n_known(const ContactEdges &edges)

@@ -75,15 +75,15 @@ TEST(ContactSkin, LooksAtFewPairsAndChangesNothing)
       largest        = std::max(largest, std::abs(u));
       error = std::max(error, std::abs(u - automatic->state.nodes[i].u[d]));
     }
-  EXPECT_GT(n_touching(wide->solver.contacts()->near_pairs(),
+  EXPECT_GT(n_touching(wide->model.contacts()->near_pairs(),
                        wide->state.get<ContactState>()),
             0.);
   EXPECT_GT(largest, gap);
   // Slip is counted from anchors that move at a search.
   EXPECT_LT(error, 1e-6 * largest);
   // All neighbours are within the wide skin, few of them touch.
-  EXPECT_LT(automatic->solver.contacts()->work().updates,
-            0.3 * wide->solver.contacts()->work().updates);
+  EXPECT_LT(automatic->model.contacts()->work().updates,
+            0.3 * wide->model.contacts()->work().updates);
 }
 
 TEST(ContactSkin, WhatAllBlocksShareCallsForNoSearch)

@@ -103,7 +103,7 @@ TEST(InterfaceTransfer, virtual_work)
   std::uniform_real_distribution<double> uniform(-1., 1.);
   std::vector<dealii::Tensor<1, 2>> v(transfer.nodes().size());
   for (auto &node : v)
-    node = { { uniform(random), uniform(random) } };
+    node = dealii::Point<2>(uniform(random), uniform(random));
   Eigen::VectorXd p(6), means;
   for (double &value : p)
     value = uniform(random);

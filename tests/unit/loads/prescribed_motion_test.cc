@@ -36,10 +36,9 @@ TEST(PrescribedMotion, ReactionIsWhatTheMassesNeed)
   square.state.velocity[1]   = dealii::Point<2>(1., 7.);
   square.state.velocity[2]   = dealii::Point<2>(2., 8.);
   square.state.nodes[2].u[1] = 0.5; // at a height of 3.5 m
-  square.capture(motion, { dealii::Point<2>(0., 0.),
-                           { { 10., 50. } },
-                           { { -20., 60. } },
-                           { { 0., 0. } } });
+  square.capture(motion,
+                 { dealii::Point<2>(0., 0.), dealii::Point<2>(10., 50.),
+                   dealii::Point<2>(-20., 60.), dealii::Point<2>(0., 0.) });
   square.move(motion);
 
   const double first  = 1. * 2.5 / square.dt - 10.;

@@ -44,8 +44,8 @@ TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
     CapturedNode<2> before{};
     before.node         = i;
     before.displacement = dealii::Point<2>(0.5 * i, -0.5 * i);
-    account_for_dashpot<2>(step, before, dealii::Point<3>(2., 2., 0.),
-                           { { 3., 5. } }, nullptr, resultant, state);
+    account_for_dashpot<2>(step, before, { { 2., 2., 0. } },
+                           dealii::Point<2>(3., 5.), nullptr, resultant, state);
   }
   EXPECT_DOUBLE_EQ(resultant[0], 6.);
   EXPECT_DOUBLE_EQ(resultant[1], 10.);

@@ -137,10 +137,10 @@ TEST(QuadraticModel, PlatensHaveTheCentreOfTheirGroup)
 {
   const Stack stack(true);
   State<2> state = stack.model->initial_state();
-  Platen platen(::platen("plate", "upper", {}, {}, {}), stack.nodes);
-  platen.prepare(state);
-  platen.set_mass(stack.model->mass());
-  platen.begin_stage(state, false);
+  Platen plate(platen("plate", "upper", {}, {}, {}), stack.nodes);
+  plate.prepare(state);
+  plate.set_mass(stack.model->mass());
+  plate.begin_stage(state, false);
   EXPECT_NEAR(state.get<PlatenState>("plate").centre[0], 1.5 + 0.2 * 3., 1e-12);
   EXPECT_NEAR(state.get<PlatenState>("plate").centre[1], 3., 1e-12);
 }

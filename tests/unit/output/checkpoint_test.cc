@@ -34,8 +34,9 @@ namespace
     state.velocity.resize(n);
     for (std::size_t i = 0; i < n; ++i)
     {
-      state.nodes[i] = { { 1. / (i + 1.), -0.3 * i }, { 1e-17 * i, 5e-324 } };
-      state.velocity[i] = { { std::sqrt(i + 2.), -0. } };
+      state.nodes[i]    = { { 1. / (i + 1.), -0.3 * i },
+                            dealii::Point<2>(1e-17 * i, 5e-324) };
+      state.velocity[i] = dealii::Point<2>(std::sqrt(i + 2.), -0.);
     }
     JointHistory &joints = state.add<JointHistory>();
     joints.resize(n / 2, 3);
