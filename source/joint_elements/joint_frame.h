@@ -30,7 +30,8 @@ namespace quoin
     // Twice the mean edge of the two sides; the lower block is on its left.
     const dealii::Tensor<1, 2> edge
         = (a1.X - a0.X) + (b1.X - b0.X) + (a1.u - a0.u) + (b1.u - b0.u);
-    const double inverse_length = 1. / edge.norm();
+    const double inverse_length
+        = 1. / std::sqrt(edge[0] * edge[0] + edge[1] * edge[1]);
     const double nx = edge[1] * inverse_length, ny = -edge[0] * inverse_length;
     return { dealii::Point<2>(nx, ny), dealii::Point<2>(ny, -nx),
              inverse_length };
@@ -46,7 +47,9 @@ namespace quoin
     const NodeRecord<2> &b = nodes[segment.upper[k]];
 
     const dealii::Tensor<1, 2> way = (b.X - a.X) + (b.u - a.u);
-    return { { way * frame.normal, way * frame.tangent } };
+    // In the order of the lanes, so that both round in the same way.
+    return { { way[0] * frame.normal[0] + way[1] * frame.normal[1],
+               way[0] * frame.tangent[0] + way[1] * frame.tangent[1] } };
   }
 
   /** How fast @p frame turns [1/s] as its nodes move with @p velocity. */
