@@ -564,9 +564,11 @@ namespace quoin
     const auto &held   = now.held;
     for (unsigned int i = 0; i < n_owned; ++i)
     {
-      change[i] -= balance.external[i];
+      // Summed first, so that nodes with equal loads round in the same way.
+      dealii::Tensor<1, dim> before = balance.external[i];
       if (!held.empty())
-        change[i] -= freed * vector_at(held, i);
+        before += freed * vector_at(held, i);
+      change[i] -= before;
     }
     auto drives
         = body_loads(dof_map.bodies(),
