@@ -96,10 +96,11 @@ namespace quoin
                     stage.slows_loads() ? " or more" : "");
     }
 
-    void report_iterations(BlockContext<2> &context, const unsigned int index,
-                           const State<2> &state)
+    template <int dim>
+    void report_iterations(BlockContext<dim> &context, const unsigned int index,
+                           const State<dim> &state)
     {
-      BlockSystem<2> &system       = context.system;
+      BlockSystem<dim> &system     = context.system;
       const Parameters &parameters = system.parameters;
       Log &log                     = context.run.log;
       const double seconds         = seconds_per_call(
@@ -125,13 +126,12 @@ namespace quoin
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
       system.begin_stage(i, state, false);
-      if constexpr (dim == 2)
-        if (system.implicit_solver)
-        {
-          report_iterations(context, i, state);
-          state.time += system.implicit_solver->steps().duration();
-          continue;
-        }
+      if (system.implicit_solver)
+      {
+        report_iterations(context, i, state);
+        state.time += system.implicit_solver->steps().duration();
+        continue;
+      }
       context.steps.choose(parameters.stages[i]);
       time_steps.push_back(system.explicit_solver->get_time_step());
       report_steps(context, parameters.stages[i], state);

@@ -244,8 +244,8 @@ namespace quoin
                          : std::vector<std::string>();
   }
 
-  template <>
-  void BlockOutputs<2>::write_iterations()
+  template <int dim>
+  void BlockOutputs<dim>::write_iterations()
   {
     for (const IterationReport &report :
          std::exchange(system.implicit_solver->record().iterations, {}))

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/results/entry_numbers.h>
+#include <quoin/results/measurements.h>
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/advice/contact_advice.h>
 #include <quoin/dynamics/highest_frequency.h>
@@ -47,7 +48,8 @@ namespace quoin
       return text;
     }
 
-    std::string unknowns_text(const ImplicitSolver &solver,
+    template <int dim>
+    std::string unknowns_text(const ImplicitSolver<dim> &solver,
                               const StageParameters &stage)
     {
       return text_of("stage ", stage.name, ": equilibrium up to the load time ",
@@ -180,7 +182,7 @@ namespace quoin
       system.begin_stage(i, begun, time_is_known);
       if (run.options.check)
         run.log.message(stage.text(parameters.is_implicit));
-      if (const ImplicitSolver *solver = system.implicit_solver)
+      if (const ImplicitSolver<dim> *solver = system.implicit_solver)
       {
         run.log.message(unknowns_text(*solver, stage));
         begun.time += solver->steps().duration();
@@ -268,9 +270,8 @@ namespace quoin
   {
     if (parameters.stages[index].safety)
       return make_safety_stage(context, index);
-    if constexpr (dim == 2)
-      if (system.implicit_solver)
-        return make_implicit_stage(context, index);
+    if (system.implicit_solver)
+      return make_implicit_stage(context, index);
     return make_explicit_stage(context, index);
   }
 
@@ -379,7 +380,7 @@ namespace quoin
               seconds > 0.
                   ? double(report.n_cells) * double(context.n_done) / seconds
                   : 0. } });
-    if (const ImplicitSolver *solver = system.implicit_solver)
+    if (const ImplicitSolver<dim> *solver = system.implicit_solver)
       summary.update({ { "unknowns", solver->n_unknowns() },
                        { "iterations", context.iterations },
                        { "cut steps", context.cuts } });

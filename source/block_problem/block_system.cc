@@ -142,22 +142,22 @@ namespace quoin
     {
       far        = make_far_field(curves);
       static_far = make_static_far_field(far.get());
-      if (parameters.is_implicit)
-      {
-        std::vector<std::string> joint_sets;
-        for (const JointSetParameters &set : parameters.model.joints)
-          joint_sets.push_back(set.name);
-        auto made = std::make_unique<ImplicitSolver>(
-            *model, parameters.loads, parameters.implicit, joint_sets,
-            std::move(static_far));
-        implicit_solver = made.get();
-        solver          = std::move(made);
-        return;
-      }
     }
     std::vector<LoadParameters> loads;
     for (const LoadParameters &load : parameters.loads)
       loads.push_back(load.along_axes<dim>());
+    if (parameters.is_implicit)
+    {
+      std::vector<std::string> joint_sets;
+      for (const JointSetParameters &set : parameters.model.joints)
+        joint_sets.push_back(set.name);
+      auto made = std::make_unique<ImplicitSolver<dim>>(
+          *model, loads, parameters.implicit, joint_sets,
+          std::move(static_far));
+      implicit_solver = made.get();
+      solver          = std::move(made);
+      return;
+    }
     auto made = std::make_unique<ExplicitSolver<dim>>(
         *model, loads, parameters.stages, std::move(far),
         std::move(static_far));
@@ -254,12 +254,10 @@ namespace quoin
         power = model->reinforcement().end_stage(state);
       construction->begin_stage(index, *solver, state);
       if constexpr (dim == 2)
-      {
         model->reinforcement().begin_stage(stage.name, index == 0, power,
                                            state);
-        if (implicit_solver)
-          implicit_solver->begin_stage(stage, previous, state);
-      }
+      if (implicit_solver)
+        implicit_solver->begin_stage(stage, previous, state);
       if (explicit_solver)
         explicit_solver->begin_stage(stage, previous, state);
       if (time_is_known)
@@ -286,9 +284,8 @@ namespace quoin
     const StageParameters &stage    = parameters.stages[index];
     const StageParameters *previous = previous_stage(parameters.stages, index);
     construction->resume_stage(index, state);
-    if constexpr (dim == 2)
-      if (implicit_solver)
-        implicit_solver->resume_stage(stage, previous, state);
+    if (implicit_solver)
+      implicit_solver->resume_stage(stage, previous, state);
     if (explicit_solver)
       explicit_solver->resume_stage(stage, previous, state);
   }

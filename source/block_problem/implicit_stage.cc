@@ -8,46 +8,55 @@ namespace quoin
 {
   namespace
   {
-    class ImplicitStage : public BlockStage<2>
+    template <int dim>
+    class ImplicitStage : public BlockStage<dim>
     {
     public:
-      ImplicitStage(BlockContext<2> &context, const unsigned int index)
-        : BlockStage<2>(context, index), solver(*system.implicit_solver)
+      ImplicitStage(BlockContext<dim> &context, const unsigned int index)
+        : BlockStage<dim>(context, index),
+          solver(*context.system.implicit_solver)
       {
       }
 
       void begin() override
       {
-        begin_model();
+        this->begin_model();
         if (state.step == 0)
           add_row();
       }
       void resume() override
       {
-        system.resume_stage(index, state);
+        system.resume_stage(this->index, state);
       }
       bool has_ended() const override
       {
-        return is_to_end() || solver.has_ended(state);
+        return this->is_to_end() || solver.has_ended(state);
       }
-      Checkpoint take_step() override;
+      Stage::Checkpoint take_step() override;
       ProgressFigures figures() const override
       {
-        return figures_at(load_share());
+        return this->figures_at(this->load_share());
       }
 
     private:
+      using BlockStage<dim>::context;
+      using BlockStage<dim>::log;
+      using BlockStage<dim>::outputs;
+      using BlockStage<dim>::state;
+      using BlockStage<dim>::system;
+
       /** Takes the solver's step and counts its iterations. */
       void step();
       void advance();
       void add_row();
 
-      ImplicitSolver &solver;
+      ImplicitSolver<dim> &solver;
     };
 
-    Stage::Checkpoint ImplicitStage::take_step()
+    template <int dim>
+    Stage::Checkpoint ImplicitStage<dim>::take_step()
     {
-      follow_joint_motion();
+      this->follow_joint_motion();
       try
       {
         advance();
@@ -56,12 +65,13 @@ namespace quoin
       {
         // The last equilibrium is written.
         outputs.write_iterations();
-        fail(error.what());
+        this->fail(error.what());
       }
-      return Checkpoint::possible;
+      return Stage::Checkpoint::possible;
     }
 
-    void ImplicitStage::step()
+    template <int dim>
+    void ImplicitStage<dim>::step()
     {
       const ImplicitRecord &record = solver.record();
       const auto iterations        = record.n_iterations;
@@ -84,7 +94,8 @@ namespace quoin
       ++context.n_done;
     }
 
-    void ImplicitStage::advance()
+    template <int dim>
+    void ImplicitStage<dim>::advance()
     {
       const double before = state.time;
       step();
@@ -97,7 +108,7 @@ namespace quoin
                     jump.loss, " J");
       // The release of forces at the start, and a jump, take no time and have a
       // row only at their end.
-      const ImplicitState &now = state.get<ImplicitState>();
+      const ImplicitState &now = state.template get<ImplicitState>();
       if (now.released == 1. && !now.jumps)
         add_row();
       context.run.tables.check();
@@ -106,16 +117,23 @@ namespace quoin
         outputs.write_fields(state);
     }
 
-    void ImplicitStage::add_row()
+    template <int dim>
+    void ImplicitStage<dim>::add_row()
     {
-      before_row();
-      write_row();
+      this->before_row();
+      this->write_row();
     }
   } // namespace
 
-  std::unique_ptr<Stage> make_implicit_stage(BlockContext<2> &context,
+  template <int dim>
+  std::unique_ptr<Stage> make_implicit_stage(BlockContext<dim> &context,
                                              const unsigned int index)
   {
-    return std::make_unique<ImplicitStage>(context, index);
+    return std::make_unique<ImplicitStage<dim>>(context, index);
   }
+
+  template std::unique_ptr<Stage> make_implicit_stage(BlockContext<2> &,
+                                                      unsigned int);
+  template std::unique_ptr<Stage> make_implicit_stage(BlockContext<3> &,
+                                                      unsigned int);
 } // namespace quoin

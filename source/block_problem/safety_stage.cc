@@ -284,10 +284,10 @@ namespace quoin
       }
     }
 
-    template <>
-    void SafetyStage<2>::find_equilibrium(SafetyTrial &trial)
+    template <int dim>
+    void SafetyStage<dim>::find_equilibrium(SafetyTrial &trial)
     {
-      ImplicitSolver &solver = *system.implicit_solver;
+      ImplicitSolver<dim> &solver = *system.implicit_solver;
       set_strength(trial.factor, 1.);
       solver.begin_stage(stage, previous_stage(system.parameters.stages, index),
                          state);
@@ -300,7 +300,7 @@ namespace quoin
         {
           if (is_interrupted())
             return;
-          const State<2> before = state;
+          const State<dim> before = state;
           solver.step(state);
           note_failed_joints(state);
           outputs.write_iterations();
@@ -310,7 +310,7 @@ namespace quoin
           // equilibrium to the next, until it lies as a heap. Whether it keeps
           // moving shows when it is released early, as the explicit solver
           // does, whose displacements count from the start.
-          const auto &was = before.get<ImplicitState>();
+          const auto &was = before.template get<ImplicitState>();
           if (!was.jumps && was.released < 1.
               && displacement > released_at * limit)
           {
@@ -318,7 +318,7 @@ namespace quoin
             solver.move_against_drag(state);
             continue;
           }
-          const auto &now = state.get<ImplicitState>();
+          const auto &now = state.template get<ImplicitState>();
           if (watch.has_failed(now.jumps, now.drag_time, displacement))
           {
             trial.verdict = Verdict::failing;
@@ -334,11 +334,6 @@ namespace quoin
         outputs.write_iterations();
         solver.record().jumps.clear();
       }
-    }
-
-    template <>
-    void SafetyStage<3>::find_equilibrium(SafetyTrial &)
-    {
     }
 
     template <int dim>

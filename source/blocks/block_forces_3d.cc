@@ -281,10 +281,16 @@ namespace quoin
   }
 
   bool BlockForces<3>::linearise(const unsigned int cell,
-                                 const NodeRecord<3> *nodes, PlasticHistory &,
+                                 const NodeRecord<3> *nodes,
+                                 PlasticHistory &history,
                                  CellLinearisation &result,
                                  const bool with_stiffness) const
   {
+    if (data.law_of(cell) && !history.space_cells.empty())
+    {
+      linearise_plastic(data, cell, nodes, history, result, with_stiffness);
+      return true;
+    }
     const CellMotion motion = cell_motion(data, nodes, cell);
     const SpaceStrain strain(motion.H);
     const auto &polar       = strain.polar;

@@ -9,26 +9,25 @@
 
 namespace quoin
 {
+  SpaceStrain elastic_strain(const double (&H)[3][3], const double (&Q)[6])
+  {
+    double A[3][3];
+    for (unsigned int r = 0; r < 3; ++r)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        A[r][c] = H[r][c] + Q[symmetric_index[r][c]];
+        for (unsigned int i = 0; i < 3; ++i)
+          A[r][c] += H[r][i] * Q[symmetric_index[i][c]];
+      }
+    return SpaceStrain(A);
+  }
+
   namespace
   {
-    /** Strain of the elastic part of a deformation, (I + H) (I + Q). */
-    SpaceStrain elastic_strain(const double (&H)[3][3], const double (&Q)[6])
-    {
-      double A[3][3];
-      for (unsigned int r = 0; r < 3; ++r)
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          A[r][c] = H[r][c] + Q[symmetric_index[r][c]];
-          for (unsigned int i = 0; i < 3; ++i)
-            A[r][c] += H[r][i] * Q[symmetric_index[i][c]];
-        }
-      return SpaceStrain(A);
-    }
-
-    SpaceStrain elastic_strain(const BlockForcesData<3> &data,
-                               const NodeRecord<3> *nodes,
-                               const PlasticHistory &history,
-                               const std::size_t cell)
+    SpaceStrain elastic_strain_of(const BlockForcesData<3> &data,
+                                  const NodeRecord<3> *nodes,
+                                  const PlasticHistory &history,
+                                  const std::size_t cell)
     {
       return elastic_strain(cell_motion(data, nodes, cell).H,
                             history.space_cells[cell].inverse_stretch);
@@ -142,7 +141,8 @@ namespace quoin
   {
     const BlockForcesData<3> &data = blocks.cell_data();
     SpacePlasticPoint point        = space_plastic_point(history, cell);
-    data.law_of(cell)->update(point, elastic_strain(data, nodes, history, cell),
+    data.law_of(cell)->update(point,
+                              elastic_strain_of(data, nodes, history, cell),
                               data.initial_stress_of(cell));
     return point;
   }
@@ -153,7 +153,7 @@ namespace quoin
     double dissipated = 0.;
     for (const unsigned int k : plastic_cells)
     {
-      const SpaceStrain strain = elastic_strain(data, nodes, history, k);
+      const SpaceStrain strain = elastic_strain_of(data, nodes, history, k);
       SpacePlasticPoint point  = space_plastic_point(history, k);
       const double lost        = data.law_of(k)
                               ->update(point, strain, data.initial_stress_of(k))
@@ -309,7 +309,7 @@ namespace quoin
   {
     const BlockForcesData<3> &data = blocks.cell_data();
     SpacePlasticPoint point        = space_plastic_point(history, cell);
-    law.take_over(point, elastic_strain(data, nodes, history, cell),
+    law.take_over(point, elastic_strain_of(data, nodes, history, cell),
                   *data.law_of(cell));
     set_plastic_point(point, cell, history);
   }

@@ -47,6 +47,9 @@ namespace quoin
   SpaceTensor elastic_stress(const SpaceStiffness &stiffness,
                              const SpaceTensor &e);
 
+  /** Strain of the elastic part of a deformation, (I + H) (I + Q). */
+  SpaceStrain elastic_strain(const double (&H)[3][3], const double (&Q)[6]);
+
   /** Adds the forces of a first Piola-Kirchhoff stress R T [Pa]. */
   void add_cell_forces(const BlockForcesData<3> &data, std::size_t cell,
                        const Tetrahedron<OneLane> &geometry,
@@ -58,6 +61,13 @@ namespace quoin
   double add_plastic_forces(const BlockForcesData<3> &data, std::size_t cell,
                             const NodeRecord<3> *nodes, PlasticHistory &history,
                             dealii::Tensor<1, 3> *force);
+
+  /** BlockForces<3>::linearise() of a cell with a yield law: the derivative is
+      that of its update, by central differences of the displacement gradient.
+   */
+  void linearise_plastic(const BlockForcesData<3> &data, std::size_t cell,
+                         const NodeRecord<3> *nodes, PlasticHistory &history,
+                         CellLinearisation &result, bool with_stiffness);
 } // namespace quoin
 
 #endif

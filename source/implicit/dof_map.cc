@@ -34,11 +34,14 @@ namespace quoin
     }
   } // namespace
 
+  template <int dim>
   double given_change(const LoadComponent &component, const double from,
                       const double to, const double stage_start,
-                      const dealii::Point<2> &place)
+                      const dealii::Point<dim> &place)
   {
-    const dealii::Point<3> at(place[0], place[1], 0.);
+    dealii::Point<3> at;
+    for (unsigned int d = 0; d < dim; ++d)
+      at[d] = place[d];
     const auto value = [&](const double t) {
       return component.at(at, { t, stage_start + t });
     };
@@ -55,24 +58,27 @@ namespace quoin
     return change;
   }
 
-  DofMap::DofMap(const Model<2> &model,
-                 const std::vector<MotionConstraint<2> *> &constraints,
-                 const std::vector<bool> &held, const State<2> &state,
-                 const bool has_factor)
+  template <int dim>
+  DofMap<dim>::DofMap(const Model<dim> &model,
+                      const std::vector<MotionConstraint<dim> *> &constraints,
+                      const std::vector<bool> &held, const State<dim> &state,
+                      const bool has_factor)
     : model(model), communicator(model.nodes().communicator()),
       stage_start(state.stage_start), absent(absent_nodes(model, state)),
       ties(model.nodes().n_local(),
            { dealii::numbers::invalid_dof_index, {}, {} })
   {
-    add_platens(constraints, state);
-    add_rigid_blocks(held);
+    if constexpr (dim == 2)
+    {
+      add_platens(constraints, state);
+      add_rigid_blocks(held);
+    }
     number(has_factor);
 
     // The last constraint that acts on a node prevails.
     const unsigned int n = model.nodes().n_owned();
-    std::vector<std::array<const LoadComponent *, 2>> owner(
-        n, { { nullptr, nullptr } });
-    for (const MotionConstraint<2> *constraint : constraints)
+    std::vector<std::array<const LoadComponent *, dim>> owner(n);
+    for (const MotionConstraint<dim> *constraint : constraints)
       if (constraint->traits().kind == MotionKind::prescribed)
         for (const unsigned int node : constraint->nodes())
           for (unsigned int d = 0; d < dim; ++d)
@@ -88,9 +94,10 @@ namespace quoin
     update_constraints(configuration_of(body_list, state), state.load_time);
   }
 
+  template <>
   void
-  DofMap::add_platens(const std::vector<MotionConstraint<2> *> &constraints,
-                      const State<2> &state)
+  DofMap<2>::add_platens(const std::vector<MotionConstraint<2> *> &constraints,
+                         const State<2> &state)
   {
     for (const MotionConstraint<2> *constraint : constraints)
     {
@@ -98,7 +105,7 @@ namespace quoin
       if (!platen->traits().is_rigid_body())
         continue;
       const PlatenState &now = state.get<PlatenState>(platen->name());
-      RigidBody body;
+      RigidBody<2> body;
       body.platen      = platen;
       body.rigid_block = -1;
       body.nodes       = platen->nodes();
@@ -112,7 +119,8 @@ namespace quoin
     n_platens = body_list.size();
   }
 
-  void DofMap::add_rigid_blocks(const std::vector<bool> &held)
+  template <>
+  void DofMap<2>::add_rigid_blocks(const std::vector<bool> &held)
   {
     const RigidBlocks &rigid = model.rigid_blocks();
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
@@ -120,7 +128,7 @@ namespace quoin
       if (held[b])
         continue;
       const RigidBlocks::Block &block = rigid.block(b);
-      RigidBody body;
+      RigidBody<2> body;
       body.platen      = nullptr;
       body.rigid_block = b;
       body.given       = { { false, false, false } };
@@ -136,14 +144,15 @@ namespace quoin
     }
   }
 
-  void DofMap::number(const bool has_factor)
+  template <int dim>
+  void DofMap<dim>::number(const bool has_factor)
   {
     const NodeExchange &exchange = model.nodes().exchange();
-    const Index first_body       = 2 * Index(exchange.n_global());
-    const Index first_rigid      = first_body + 4 * n_platens;
+    const DofIndex first_body    = dim * DofIndex(exchange.n_global());
+    const DofIndex first_rigid   = first_body + 4 * n_platens;
     const dealii::IndexSet rigid
         = dealii::Utilities::MPI::create_ascending_partitioning(
-            communicator, 4 * Index(body_list.size() - n_platens))
+            communicator, 4 * DofIndex(body_list.size() - n_platens))
             [dealii::Utilities::MPI::this_mpi_process(communicator)];
 
     owned_dofs
@@ -152,8 +161,8 @@ namespace quoin
       factor_dof = first_rigid + rigid.size();
     if (exchange.n_owned() > 0)
     {
-      const Index first = 2 * Index(exchange.global(0));
-      owned_dofs.add_range(first, first + 2 * exchange.n_owned());
+      const DofIndex first = dim * DofIndex(exchange.global(0));
+      owned_dofs.add_range(first, first + dim * exchange.n_owned());
     }
     owned_dofs.add_indices(rigid, first_rigid);
     if (has_factor
@@ -161,7 +170,7 @@ namespace quoin
       owned_dofs.add_index(factor_dof);
     for (unsigned int b = 0; b < body_list.size(); ++b)
     {
-      RigidBody &body = body_list[b];
+      RigidBody<dim> &body = body_list[b];
       body.first
           = b < n_platens
                 ? first_body + 4 * b
@@ -182,11 +191,12 @@ namespace quoin
       relevant_dofs.add_range(body_list[b].first, body_list[b].first + 4);
     for (unsigned int i = 0; i < exchange.n_local(); ++i)
     {
-      const Index first = 2 * Index(exchange.global(i));
-      node_dofs.insert(node_dofs.end(), { first, first + 1 });
+      const DofIndex first = dim * DofIndex(exchange.global(i));
+      for (unsigned int d = 0; d < dim; ++d)
+        node_dofs.push_back(first + d);
       if (i < exchange.n_owned())
         continue;
-      relevant_dofs.add_range(first, first + 2);
+      relevant_dofs.add_range(first, first + dim);
       if (!is_in_body(i))
         continue;
       relevant_dofs.add_range(ties[i].body, ties[i].body + 4);
@@ -195,31 +205,35 @@ namespace quoin
     relevant_dofs.compress();
   }
 
-  void DofMap::update_arms(const Configuration &configuration)
+  template <int dim>
+  void DofMap<dim>::update_arms(const Configuration<dim> &configuration)
   {
-    for (unsigned int b = 0; b < body_list.size(); ++b)
-    {
-      RigidBody &body = body_list[b];
-      const double c  = std::cos(configuration.bodies[b][2]),
-                   s  = std::sin(configuration.bodies[b][2]);
-      body.present_arms.resize(body.arms.size());
-      for (unsigned int i = 0; i < body.arms.size(); ++i)
+    if constexpr (dim == 2)
+      for (unsigned int b = 0; b < body_list.size(); ++b)
       {
-        const double x = body.arms[i][0], y = body.arms[i][1];
-        body.present_arms[i] = dealii::Point<2>(c * x - s * y, s * x + c * y);
+        RigidBody<dim> &body = body_list[b];
+        const double c       = std::cos(configuration.bodies[b][2]),
+                     s       = std::sin(configuration.bodies[b][2]);
+        body.present_arms.resize(body.arms.size());
+        for (unsigned int i = 0; i < body.arms.size(); ++i)
+        {
+          const double x = body.arms[i][0], y = body.arms[i][1];
+          body.present_arms[i]
+              = dealii::Point<dim>(c * x - s * y, s * x + c * y);
+        }
       }
-    }
   }
 
-  void DofMap::update_constraints(const Configuration &configuration,
-                                  const double load_time)
+  template <int dim>
+  void DofMap<dim>::update_constraints(const Configuration<dim> &configuration,
+                                       const double load_time)
   {
     update_arms(configuration);
     const double before = configuration.load_time;
     for (const Prescribed &p : prescribed_list)
       ties[p.node].motion[p.component] = given_change(
           *p.part, before, load_time, stage_start, model.nodes().point(p.node));
-    for (const RigidBody &body : body_list)
+    for (const RigidBody<dim> &body : body_list)
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
         ties[body.nodes[i]].motion = body.present_arms[i];
     model.nodes().exchange().update_ghosts(ties.data());
@@ -246,7 +260,7 @@ namespace quoin
           affine.set_inhomogeneity(dof(i, d), tie.motion[d]);
         }
     }
-    for (const RigidBody &body : body_list)
+    for (const RigidBody<dim> &body : body_list)
     {
       affine.add_line(body.first + 3);
       for (unsigned int d = 0; d < 3; ++d)
@@ -260,15 +274,19 @@ namespace quoin
     affine.close();
   }
 
-  double DofMap::given_motion(const RigidBody &body, const unsigned int d,
-                              const double from, const double to) const
+  template <int dim>
+  double DofMap<dim>::given_motion(const RigidBody<dim> &body,
+                                   const unsigned int d, const double from,
+                                   const double to) const
   {
-    return given_change((*body.platen->parts())[d], from, to, stage_start)
+    return given_change<dim>((*body.platen->parts())[d], from, to, stage_start)
            * (d == 2 ? constants::degree : 1.);
   }
 
-  void DofMap::move(const Vector &increment, const double share,
-                    const double load_time, Configuration &configuration) const
+  template <int dim>
+  void DofMap<dim>::move(const DofVector &increment, const double share,
+                         const double load_time,
+                         Configuration<dim> &configuration) const
   {
     const double before     = configuration.load_time;
     configuration.load_time = load_time;
@@ -297,12 +315,21 @@ namespace quoin
     model.nodes().exchange().update_ghosts(configuration.nodes.data());
   }
 
-  void DofMap::add_forces(const AlignedArray<dealii::Tensor<1, 2>> &force,
-                          Vector &right_hand_side) const
+  template <int dim>
+  void
+  DofMap<dim>::add_forces(const AlignedArray<dealii::Tensor<1, dim>> &force,
+                          DofVector &right_hand_side) const
   {
     const auto *values = reinterpret_cast<const double *>(force.data());
     affine.distribute_local_to_global(values,
-                                      values + 2 * model.nodes().n_owned(),
+                                      values + dim * model.nodes().n_owned(),
                                       node_dofs.begin(), right_hand_side);
   }
+
+  template double given_change(const LoadComponent &, double, double, double,
+                               const dealii::Point<2> &);
+  template double given_change(const LoadComponent &, double, double, double,
+                               const dealii::Point<3> &);
+  template class DofMap<2>;
+  template class DofMap<3>;
 } // namespace quoin

@@ -3,6 +3,8 @@
 
 #include <quoin/base/packed_vectors.h>
 #include <quoin/implicit/equilibrium.h>
+#include <quoin/joint_elements/breaking_joints.h>
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/operators/archive.h>
 
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
@@ -15,20 +17,30 @@ namespace quoin
 {
   namespace
   {
-    using Index = DofMap::Index;
-    constexpr dealii::Tensor<1, 2> no_force;
+    using Index = DofIndex;
 
     /** Displacement of all nodes by the model's size [-]: the forces for it
         count as applied, as without loads there is only rounding. */
     constexpr double least_motion = 1e-11;
+
+    double area_of_points(const JointSegment &segment)
+    {
+      return segment.area[0];
+    }
+    double area_of_points(const SpaceJointFace &face)
+    {
+      return face.area;
+    }
   } // namespace
 
-  Equilibrium::Equilibrium(const Model<2> &model, DofMap &dof_map,
-                           const Operators &operators,
-                           const std::vector<bool> &path_sets,
-                           const double stage_start,
-                           const StaticFarField *far_field,
-                           const LoadPattern<2> *pattern, const Beams *beams)
+  template <int dim>
+  Equilibrium<dim>::Equilibrium(const Model<dim> &model, DofMap<dim> &dof_map,
+                                const Operators &operators,
+                                const std::vector<bool> &path_sets,
+                                const double stage_start,
+                                const StaticFarField *far_field,
+                                const LoadPattern<dim> *pattern,
+                                const Beams *beams)
     : model(model), dof_map(dof_map), operators(operators),
       path_sets(path_sets), stage_start(stage_start),
       communicator(model.nodes().communicator()), pattern(pattern),
@@ -37,18 +49,19 @@ namespace quoin
     make_pattern();
   }
 
-  void Equilibrium::make_pattern()
+  template <int dim>
+  void Equilibrium<dim>::make_pattern()
   {
     dealii::TrilinosWrappers::SparsityPattern entries(
         dof_map.owned(), dof_map.owned(), dof_map.relevant(), communicator);
-    State<2> rest  = model.initial_state();
-    double sums[4] = { 0., 0., 0., 0. }; // stiffness, mass, nodes, path
-    for (const ForceOperator<2> *each : operators)
+    State<dim> rest = model.initial_state();
+    double sums[4]  = { 0., 0., 0., 0. }; // stiffness, mass, nodes, path
+    for (const ForceOperator<dim> *each : operators)
       each->linearise(
           rest, each->is_internal(),
-          [&](const ElementLinearisation<2> &element)
+          [&](const ElementLinearisation<dim> &element)
           {
-            const unsigned int n = 2 * element.n_nodes;
+            const unsigned int n = dim * element.n_nodes;
             element_dofs.resize(n);
             dof_map.get_dofs(element.nodes, element.n_nodes, element_dofs);
             dof_map.constraints().add_entries_local_to_global(element_dofs,
@@ -71,14 +84,15 @@ namespace quoin
     const double by_mass = stiffness / (sums[1] / n_nodes);
     for (const double mass : model.mass())
       drag_stiffness.push_back(by_mass * mass);
-    if (far_field)
+    if constexpr (dim == 2)
     {
-      find_far_stiffness();
+      if (far_field)
+        find_far_stiffness();
       for (const Index row : far_rows)
         entries.add_entries(row, far_columns.begin(), far_columns.end());
+      if (beams)
+        add_beam_entries(entries);
     }
-    if (beams)
-      add_beam_entries(entries);
     for (const Index row : dof_map.owned())
     {
       entries.add(row, row);
@@ -103,21 +117,22 @@ namespace quoin
     }
   }
 
-  void Equilibrium::find_far_stiffness()
+  template <>
+  void Equilibrium<2>::find_far_stiffness()
   {
     auto stiffness       = far_field->nodal_stiffness(model.nodes().exchange());
     const Eigen::Index n = stiffness.nodes.size();
     // Nothing resists a translation of the model if only the far field supports
     // it. Forces without resultant do not cause one; a stiffness in the
     // derivative alone makes the equations regular.
-    unsigned int held[dim] = {};
-    for (const DofMap::Prescribed &given : dof_map.prescribed())
+    unsigned int held[2] = {};
+    for (const DofMap<2>::Prescribed &given : dof_map.prescribed())
       held[given.component] = 1;
-    for (const RigidBody &body : dof_map.bodies())
-      for (unsigned int d = 0; d < dim; ++d)
+    for (const RigidBody<2> &body : dof_map.bodies())
+      for (unsigned int d = 0; d < 2; ++d)
         if (body.given[d])
           held[d] = 1;
-    MPI_Allreduce(MPI_IN_PLACE, held, dim, MPI_UNSIGNED, MPI_MAX, communicator);
+    MPI_Allreduce(MPI_IN_PLACE, held, 2, MPI_UNSIGNED, MPI_MAX, communicator);
     const double size = dealii::Utilities::MPI::max(
         stiffness.rows.size() > 0 ? stiffness.rows.cwiseAbs().maxCoeff() : 0.,
         communicator);
@@ -129,7 +144,7 @@ namespace quoin
     std::vector<Eigen::Index> rows, columns;
     std::vector<Index> dofs(2 * n, 0); // one more; 0: not free
     for (unsigned int k = 0; k < far_field->nodes().size(); ++k)
-      for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int d = 0; d < 2; ++d)
       {
         const unsigned int node = far_field->nodes()[k];
         if (!dof_map.is_free(node, d))
@@ -151,13 +166,14 @@ namespace quoin
     far_stiffness = stiffness.rows(rows, columns);
   }
 
-  void Equilibrium::add_beam_entries(
+  template <>
+  void Equilibrium<2>::add_beam_entries(
       dealii::TrilinosWrappers::SparsityPattern &entries)
   {
     std::vector<Index> dofs; // one more; 0: held
     for (const auto &[line, interface] : beams->all())
       for (const InterfacePoint &point : interface.points)
-        for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int d = 0; d < 2; ++d)
           dofs.push_back(point.node != NodeMap<2>::none
                                  && dof_map.is_free(point.node, d)
                              ? 1 + dof_map.dof(point.node, d)
@@ -178,9 +194,10 @@ namespace quoin
     }
   }
 
-  void Equilibrium::add_beams(const State<2> &committed,
-                              const Configuration &configuration,
-                              Balance &balance, const bool slopes)
+  template <>
+  void Equilibrium<2>::add_beams(const State<2> &committed,
+                                 const Configuration<2> &configuration,
+                                 Balance<2> &balance, const bool slopes)
   {
     std::vector<Eigen::MatrixXd> stiffness;
     balance.beams_stand = beams->settle(
@@ -210,23 +227,21 @@ namespace quoin
       }
   }
 
-  double Equilibrium::joint_stiffness() const
+  template <int dim>
+  double Equilibrium<dim>::joint_stiffness() const
   {
     double largest = 1.;
-    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
-    {
-      const auto &segment = model.joints().segments()[i];
-      largest             = std::max(
-                      largest,
-                      segment.area[0]
-                          * stiffness_bound(model.joints().laws()[segment.set])[0]);
-    }
+    for (const auto &face : joint_faces(model.joints()))
+      largest = std::max(
+          largest, area_of_points(face)
+                       * stiffness_bound(model.joints().laws()[face.set])[0]);
     return dealii::Utilities::MPI::max(largest, communicator);
   }
 
-  void Equilibrium::find_places(const ElementLinearisation<2> &element)
+  template <int dim>
+  void Equilibrium<dim>::find_places(const ElementLinearisation<dim> &element)
   {
-    const unsigned int n = 2 * element.n_nodes;
+    const unsigned int n = dim * element.n_nodes;
     ElementPlaces places{ all_places.size(), 0, {} };
     element_dofs.resize(n);
     dof_map.get_dofs(element.nodes, element.n_nodes, element_dofs);
@@ -259,10 +274,11 @@ namespace quoin
     element_places.push_back(places);
   }
 
-  void Equilibrium::add_stiffness(const ElementLinearisation<2> &element,
-                                  DofMap::Vector &by_advance)
+  template <int dim>
+  void Equilibrium<dim>::add_stiffness(const ElementLinearisation<dim> &element,
+                                       DofVector &by_advance)
   {
-    const unsigned int n = 2 * element.n_nodes;
+    const unsigned int n = dim * element.n_nodes;
     if (next_element == element_places.size())
       find_places(element);
     const ElementPlaces &places = element_places[next_element++];
@@ -292,13 +308,15 @@ namespace quoin
         element_matrix, no_load, element_dofs, matrix, by_advance);
   }
 
-  void Equilibrium::add_element(const ElementLinearisation<2> &element,
-                                AlignedArray<dealii::Tensor<1, 2>> &force,
+  template <int dim>
+  void
+  Equilibrium<dim>::add_element(const ElementLinearisation<dim> &element,
+                                AlignedArray<dealii::Tensor<1, dim>> &force,
                                 double &path, const bool on_path,
                                 Slopes *slopes)
   {
     for (unsigned int k = 0; k < element.n_nodes; ++k)
-      force[element.nodes[k]] += vector_at(element.force, k);
+      force[element.nodes[k]] += vector_at<dim>(element.force, k);
     if (is_on_path(element))
       path += element.share * element.inelastic;
     if (!slopes)
@@ -306,10 +324,11 @@ namespace quoin
     add_stiffness(element, slopes->by_advance);
     if (!on_path || !is_on_path(element))
       return;
-    element_dofs.resize(2 * element.n_nodes);
+    const unsigned int n = dim * element.n_nodes;
+    element_dofs.resize(n);
     dof_map.get_dofs(element.nodes, element.n_nodes, element_dofs);
-    std::array<double, 8> slope;
-    for (unsigned int j = 0; j < slope.size(); ++j)
+    std::vector<double> slope(n);
+    for (unsigned int j = 0; j < n; ++j)
     {
       slope[j] = element.inelastic_gradient[j] * (element.share / path_area);
       slopes->path_by_advance
@@ -320,23 +339,25 @@ namespace quoin
         slope.begin(), slope.end(), element_dofs.begin(), slopes->path_by_dof);
   }
 
-  void Equilibrium::add_far_field(const State<2> &committed,
-                                  const Configuration &configuration,
-                                  Balance &balance, const Slopes *slopes)
+  template <>
+  void Equilibrium<2>::add_far_field(const State<2> &committed,
+                                     const Configuration<2> &configuration,
+                                     Balance<2> &balance, const Slopes *slopes)
   {
     balance.far_field_energy = 0.;
     balance.far_field_force  = { { 0., 0., 0. } };
     if (!far_field)
       return;
     const auto &nodes = far_field->nodes();
-    AlignedArray<dealii::Tensor<1, 2>> force(model.nodes().n_local(), no_force);
+    AlignedArray<dealii::Tensor<1, 2>> force(model.nodes().n_local(),
+                                             dealii::Tensor<1, 2>());
     balance.far_field_energy = far_field->add_forces(
         configuration.nodes.data(), committed.get<StaticFarFieldState>(),
         force.data());
     for (const unsigned int node : nodes)
     {
       const auto &X = model.nodes().point(node);
-      for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int d = 0; d < 2; ++d)
       {
         const double by_far_field = force[node][d];
         applied_force[node][d] += by_far_field;
@@ -352,11 +373,12 @@ namespace quoin
                  far_stiffness.row(k).data(), false, false);
   }
 
-  void Equilibrium::add_drag(const State<2> &committed,
-                             const Configuration &configuration,
-                             Balance &balance, Slopes *slopes)
+  template <int dim>
+  void Equilibrium<dim>::add_drag(const State<dim> &committed,
+                                  const Configuration<dim> &configuration,
+                                  Balance<dim> &balance, Slopes *slopes)
   {
-    balance.drag.assign(model.nodes().n_local(), no_force);
+    balance.drag.assign(model.nodes().n_local(), dealii::Tensor<1, dim>());
     if (drag == 0.)
       return;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
@@ -366,15 +388,20 @@ namespace quoin
           = -stiffness * (configuration.nodes[i].u - committed.nodes[i].u);
       if (!slopes)
         continue;
-      const double element[4] = { stiffness, 0., 0., stiffness };
-      add_stiffness({ &i, 1, nullptr, element, 2 }, slopes->by_advance);
+      std::array<double, dim * dim> element{};
+      for (unsigned int d = 0; d < dim; ++d)
+        element[(dim + 1) * d] = stiffness;
+      add_stiffness({ &i, 1, nullptr, element.data(), dim },
+                    slopes->by_advance);
     }
   }
 
-  void Equilibrium::add_turning(const AlignedArray<dealii::Tensor<1, 2>> &force)
+  template <>
+  void
+  Equilibrium<2>::add_turning(const AlignedArray<dealii::Tensor<1, 2>> &force)
   {
     // The arms turn with the body: r x f changes by -r . f per radian.
-    for (const RigidBody &body : dof_map.bodies())
+    for (const RigidBody<2> &body : dof_map.bodies())
     {
       if (body.given[2])
         continue;
@@ -389,38 +416,41 @@ namespace quoin
     }
   }
 
-  void Equilibrium::add_forces(const State<2> &committed,
-                               const Configuration &configuration,
-                               const std::vector<std::uint8_t> &broken,
-                               Balance &balance, Slopes *slopes,
-                               const bool on_path)
+  template <int dim>
+  void Equilibrium<dim>::add_forces(const State<dim> &committed,
+                                    const Configuration<dim> &configuration,
+                                    const std::vector<std::uint8_t> &broken,
+                                    Balance<dim> &balance, Slopes *slopes,
+                                    const bool on_path)
   {
-    next_element    = 0;
-    State<2> &trial = balance.state;
-    trial.nodes     = configuration.nodes;
-    trial.energy    = EnergyAccounts();
-    for (const ForceOperator<2> *each : operators)
+    next_element      = 0;
+    State<dim> &trial = balance.state;
+    trial.nodes       = configuration.nodes;
+    trial.energy      = EnergyAccounts();
+    for (const ForceOperator<dim> *each : operators)
       each->prepare(trial);
-    if (beams)
-      beams->prepare(trial);
+    if constexpr (dim == 2)
+      if (beams)
+        beams->prepare(trial);
     trial.copy_slices(committed);
-    trial.add<BreakingJoints>().points = broken;
-    balance.force.assign(model.nodes().n_local(), no_force);
-    applied_force.assign(model.nodes().n_local(), no_force);
+    trial.template add<BreakingJoints<dim>>().points = broken;
+    balance.force.assign(model.nodes().n_local(), dealii::Tensor<1, dim>());
+    applied_force.assign(model.nodes().n_local(), dealii::Tensor<1, dim>());
 
     double path = 0.;
-    for (const ForceOperator<2> *each : operators)
+    for (const ForceOperator<dim> *each : operators)
     {
       auto &force = each->is_internal() ? balance.force : applied_force;
       each->linearise(trial, slopes,
-                      [&](const ElementLinearisation<2> &element)
+                      [&](const ElementLinearisation<dim> &element)
                       {
                         if (!dof_map.is_absent(element.nodes[0]))
                           add_element(element, force, path, on_path, slopes);
                       });
     }
-    if (beams)
-      add_beams(committed, configuration, balance, slopes != nullptr);
+    if constexpr (dim == 2)
+      if (beams)
+        add_beams(committed, configuration, balance, slopes != nullptr);
     balance.path
         = path_area > 0.
               ? dealii::Utilities::MPI::sum(path, communicator) / path_area
@@ -429,21 +459,22 @@ namespace quoin
     model.nodes().exchange().add_to_owners(balance.force.data());
   }
 
-  void Equilibrium::add_loads(const State<2> &committed,
-                              const Configuration &configuration,
-                              Balance &balance)
+  template <int dim>
+  void Equilibrium<dim>::add_loads(const State<dim> &committed,
+                                   const Configuration<dim> &configuration,
+                                   Balance<dim> &balance)
   {
     const unsigned int n_owned = model.nodes().n_owned();
-    balance.external.assign(model.nodes().n_local(), no_force);
+    balance.external.assign(model.nodes().n_local(), dealii::Tensor<1, dim>());
     add_external(configuration.load_time, configuration.factor,
                  balance.external);
     if (pattern)
-      balance.lacking = committed.get<LoadPatternState>().start
+      balance.lacking = committed.template get<LoadPatternState>().start
                         + pattern->target(configuration.load_time)
                         - pattern->displacement(configuration.nodes);
 
     const double left = 1. - configuration.released;
-    const auto &now   = committed.get<ImplicitState>();
+    const auto &now   = committed.template get<ImplicitState>();
     const auto &held  = now.held;
     balance.drives    = body_loads(
            dof_map.bodies(),
@@ -454,7 +485,7 @@ namespace quoin
       applied_force[i] += balance.external[i];
       balance.force[i] += applied_force[i];
       if (!held.empty())
-        balance.force[i] += left * vector_at(held, i);
+        balance.force[i] += left * vector_at<dim>(held, i);
     }
     if (!held.empty())
       for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
@@ -463,32 +494,34 @@ namespace quoin
     find_ratio(applied_force, balance);
   }
 
-  void
-  Equilibrium::add_external(const double load_time, const double factor,
-                            AlignedArray<dealii::Tensor<1, 2>> &force) const
+  template <int dim>
+  void Equilibrium<dim>::add_external(
+      const double load_time, const double factor,
+      AlignedArray<dealii::Tensor<1, dim>> &force) const
   {
     for (unsigned int i = 0; pattern && i < force.size(); ++i)
       force[i] += factor * pattern->forces()[i];
-    for (const ForceOperator<2> *each : operators)
+    for (const ForceOperator<dim> *each : operators)
       each->add_loads({ load_time, stage_start + load_time }, force.data());
     for (unsigned int i = 0; i < force.size(); ++i)
       if (dof_map.is_absent(i))
-        force[i] = no_force;
+        force[i] = dealii::Tensor<1, dim>();
   }
 
-  void
-  Equilibrium::find_ratio(const AlignedArray<dealii::Tensor<1, 2>> &applied,
-                          Balance &balance)
+  template <int dim>
+  void Equilibrium<dim>::find_ratio(
+      const AlignedArray<dealii::Tensor<1, dim>> &applied,
+      Balance<dim> &balance)
   {
     double sums[3] = { 0., 0., 0. }; // unbalanced, applied, dragged
-    AlignedArray<dealii::Tensor<1, 2>> total = balance.force;
+    AlignedArray<dealii::Tensor<1, dim>> total = balance.force;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       total[i] += balance.drag[i];
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
     {
       sums[1] += applied[i].norm();
       sums[2] += balance.drag[i].norm();
-      dealii::Tensor<1, 2> free = total[i], given = total[i];
+      dealii::Tensor<1, dim> free = total[i], given = total[i];
       for (unsigned int d = 0; d < dim; ++d)
         (dof_map.is_free(i, d) ? given : free)[d] = 0.;
       sums[0] += free.norm();
@@ -497,7 +530,7 @@ namespace quoin
     const auto bodies = body_forces(dof_map.bodies(), total, communicator);
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const RigidBody &body = dof_map.bodies()[b];
+      const RigidBody<dim> &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
       double size = 0.;
@@ -518,23 +551,26 @@ namespace quoin
     balance.dragged    = sums[2];
   }
 
-  void Equilibrium::find_forces(const State<2> &committed,
-                                const Configuration &configuration,
-                                const std::vector<std::uint8_t> &broken,
-                                Balance &balance)
+  template <int dim>
+  void Equilibrium<dim>::find_forces(const State<dim> &committed,
+                                     const Configuration<dim> &configuration,
+                                     const std::vector<std::uint8_t> &broken,
+                                     Balance<dim> &balance)
   {
     dof_map.update_arms(configuration);
     add_forces(committed, configuration, broken, balance, nullptr);
     add_drag(committed, configuration, balance, nullptr);
-    add_far_field(committed, configuration, balance, nullptr);
+    if constexpr (dim == 2)
+      add_far_field(committed, configuration, balance, nullptr);
     add_loads(committed, configuration, balance);
   }
 
-  void Equilibrium::linearise(const State<2> &committed,
-                              const Configuration &configuration,
-                              const std::vector<std::uint8_t> &broken,
-                              const Advance &advance, Balance &balance,
-                              Slopes &slopes)
+  template <int dim>
+  void Equilibrium<dim>::linearise(const State<dim> &committed,
+                                   const Configuration<dim> &configuration,
+                                   const std::vector<std::uint8_t> &broken,
+                                   const Advance &advance,
+                                   Balance<dim> &balance, Slopes &slopes)
   {
     const unsigned int n_owned = model.nodes().n_owned();
     dof_map.update_constraints(configuration, advance.load_time);
@@ -545,9 +581,11 @@ namespace quoin
     add_forces(committed, configuration, broken, balance, &slopes,
                advance.on_path);
     add_drag(committed, configuration, balance, &slopes);
-    add_far_field(committed, configuration, balance, &slopes);
+    if constexpr (dim == 2)
+      add_far_field(committed, configuration, balance, &slopes);
     add_loads(committed, configuration, balance);
-    add_turning(balance.force);
+    if constexpr (dim == 2)
+      add_turning(balance.force);
     if (pattern)
       add_pattern(configuration, advance.load_time, slopes.by_advance);
     matrix.compress(dealii::VectorOperation::add);
@@ -557,17 +595,18 @@ namespace quoin
     slopes.path_by_advance
         = dealii::Utilities::MPI::sum(slopes.path_by_advance, communicator);
 
-    AlignedArray<dealii::Tensor<1, 2>> change(n_owned, no_force);
+    AlignedArray<dealii::Tensor<1, dim>> change(n_owned,
+                                                dealii::Tensor<1, dim>());
     add_external(advance.load_time, configuration.factor, change);
     const double freed = advance.released - configuration.released;
-    const auto &now    = committed.get<ImplicitState>();
+    const auto &now    = committed.template get<ImplicitState>();
     const auto &held   = now.held;
     for (unsigned int i = 0; i < n_owned; ++i)
     {
       // Summed first, so that nodes with equal loads round in the same way.
       dealii::Tensor<1, dim> before = balance.external[i];
       if (!held.empty())
-        before += freed * vector_at(held, i);
+        before += freed * vector_at<dim>(held, i);
       change[i] -= before;
     }
     auto drives
@@ -585,16 +624,18 @@ namespace quoin
     slopes.by_advance.compress(dealii::VectorOperation::add);
   }
 
-  void Equilibrium::add_pattern(const Configuration &configuration,
-                                const double load_time,
-                                DofMap::Vector &by_advance)
+  template <int dim>
+  void Equilibrium<dim>::add_pattern(const Configuration<dim> &configuration,
+                                     const double load_time,
+                                     DofVector &by_advance)
   {
     const Index factor         = dof_map.factor();
     const unsigned int n_owned = model.nodes().n_owned();
-    DofMap::Vector push(dof_map.owned(), communicator),
+    DofVector push(dof_map.owned(), communicator),
         measure(dof_map.owned(), communicator);
     dof_map.add_forces(pattern->forces(), push);
-    AlignedArray<dealii::Tensor<1, 2>> weights(n_owned, no_force);
+    AlignedArray<dealii::Tensor<1, dim>> weights(n_owned,
+                                                 dealii::Tensor<1, dim>());
     double moves
         = pattern->target(load_time) - pattern->target(configuration.load_time);
     double given = 0.; // by prescribed motions
@@ -620,7 +661,8 @@ namespace quoin
       by_advance(factor) += moves;
   }
 
-  void Equilibrium::fill_unused_rows()
+  template <int dim>
+  void Equilibrium<dim>::fill_unused_rows()
   {
     // Rows of constrained degrees of freedom are those of the unit matrix,
     // scaled to keep the condition number.
@@ -634,4 +676,7 @@ namespace quoin
         value = size > 0. ? size : 1.;
     }
   }
+
+  template class Equilibrium<2>;
+  template class Equilibrium<3>;
 } // namespace quoin

@@ -9,6 +9,7 @@
 #include <quoin/implicit/rest_time.h>
 #include <quoin/implicit/worst_place.h>
 #include <quoin/loads/prescribed_motion.h>
+#include <quoin/joint_elements/breaking_joints.h>
 #include <quoin/model/free_bodies.h>
 #include <quoin/operators/archive.h>
 #include <quoin/water/joint_flow.h>
@@ -69,13 +70,14 @@ namespace quoin
     }
   } // namespace
 
-  ImplicitSolver::ImplicitSolver(Model<2> &model,
-                                 const std::vector<LoadParameters> &loads,
-                                 const ImplicitParameters &parameters,
-                                 const std::vector<std::string> &joint_sets,
-                                 std::unique_ptr<StaticFarField> far_field)
-    : Solver((refuse_dynamic_loads(loads), model), loads, nullptr,
-             std::move(far_field)),
+  template <int dim>
+  ImplicitSolver<dim>::ImplicitSolver(
+      Model<dim> &model, const std::vector<LoadParameters> &loads,
+      const ImplicitParameters &parameters,
+      const std::vector<std::string> &joint_sets,
+      std::unique_ptr<StaticFarField> far_field)
+    : Solver<dim>((refuse_dynamic_loads(loads), model), loads, nullptr,
+                  std::move(far_field)),
       parameters(parameters), own_steps(parameters),
       path_sets(joint_sets.size(), parameters.path_joints.empty()),
       set_names(joint_sets)
@@ -95,13 +97,17 @@ namespace quoin
     }
   }
 
-  void ImplicitSolver::prepare_stage(const State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::prepare_stage(const State<dim> &state)
   {
     stage_start = state.stage_start;
     check_no_free_bodies(model, acting.constraints, stage.name, state);
     refuse_shared_platens(model, acting.constraints, stage);
-    held_blocks = find_held_blocks(model, acting.constraints, stage);
-    hold_absent_blocks(state);
+    if constexpr (dim == 2)
+    {
+      held_blocks = find_held_blocks(model, acting.constraints, stage);
+      hold_absent_blocks(state);
+    }
     double duration = stage.duration;
     bool rests      = false;
     if (stage.end != StageEnd::time)
@@ -118,14 +124,15 @@ namespace quoin
     rests = rests && !acting.release.changes()
             && !(all.water && all.water->changes(stage_start, duration));
     own_steps.begin_stage(duration, rests, stage.safety.has_value());
-    dof_map = std::make_unique<DofMap>(model, acting.constraints, held_blocks,
-                                       state, acting.pattern != nullptr);
-    equilibrium = std::make_unique<Equilibrium>(
+    dof_map
+        = std::make_unique<DofMap<dim>>(model, acting.constraints, held_blocks,
+                                        state, acting.pattern != nullptr);
+    equilibrium = std::make_unique<Equilibrium<dim>>(
         model, *dof_map, operators_with(acting.nodal), path_sets, stage_start,
         all.far.elastostatic_acts ? all.far.elastostatic : nullptr,
         acting.pattern.get(), all.beams.get());
     // Multigrid gives no factor.
-    linear_solver = std::make_unique<LinearSolver>(
+    linear_solver = std::make_unique<LinearSolver<dim>>(
         acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
         model, *dof_map);
     residual.reinit(dof_map->owned(), communicator);
@@ -133,20 +140,25 @@ namespace quoin
     broken.assign(model.joints().n_points(), 0);
   }
 
-  Equilibrium::Operators ImplicitSolver::operators_with(
-      const std::vector<const NodalLoad<2> *> &loads) const
+  template <int dim>
+  typename Equilibrium<dim>::Operators ImplicitSolver<dim>::operators_with(
+      const std::vector<const NodalLoad<dim> *> &loads) const
   {
-    Equilibrium::Operators result{ &model.joints(), &model.blocks() };
-    if (!model.reinforcement().empty())
-      result.push_back(&model.reinforcement());
+    typename Equilibrium<dim>::Operators result{ &model.joints(),
+                                                 &model.blocks() };
+    if constexpr (dim == 2)
+      if (!model.reinforcement().empty())
+        result.push_back(&model.reinforcement());
     result.insert(result.end(), loads.begin(), loads.end());
-    if (all.water && all.water->acts())
-      result.push_back(all.water);
+    if constexpr (dim == 2)
+      if (all.water && all.water->acts())
+        result.push_back(all.water);
     result.push_back(&acting.release);
     return result;
   }
 
-  void ImplicitSolver::hold_absent_blocks(const State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::hold_absent_blocks(const State<dim> &state)
   {
     const unsigned int first = model.nodes().blocks().n_deformable;
     for (unsigned int b = 0; b < held_blocks.size(); ++b)
@@ -154,97 +166,109 @@ namespace quoin
         held_blocks[b] = true;
   }
 
-  void ImplicitSolver::prepare(State<2> &state) const
+  template <int dim>
+  void ImplicitSolver<dim>::prepare(State<dim> &state) const
   {
-    Solver::prepare(state);
-    state.add<ImplicitState>();
+    Solver<dim>::prepare(state);
+    state.template add<ImplicitState>().dim = dim;
   }
 
-  void ImplicitSolver::begin_stage(const StageParameters &new_stage,
-                                   const StageParameters *previous,
-                                   State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::begin_stage(const StageParameters &new_stage,
+                                        const StageParameters *previous,
+                                        State<dim> &state)
   {
-    activate(new_stage, state);
-    ramp_gravity(previous, 0.);
+    this->activate(new_stage, state);
+    this->ramp_gravity(previous, 0.);
     prepare(state);
-    if (all.water)
-      all.water->begin_stage(stage.name, state);
-    if (all.beams)
-      all.beams->begin_stage(stage.name, state);
+    if constexpr (dim == 2)
+    {
+      if (all.water)
+        all.water->begin_stage(stage.name, state);
+      if (all.beams)
+        all.beams->begin_stage(stage.name, state);
+    }
     for (const auto &constraint : all.constraints)
       if (!all.acts_in(*constraint, stage))
         constraint->rest(state);
-    for (MotionConstraint<2> *constraint : acting.constraints)
+    for (MotionConstraint<dim> *constraint : acting.constraints)
     {
       constraint->set_mass(model.mass());
       constraint->begin_stage(state,
                               previous && all.acts_in(*constraint, *previous));
     }
-    state.stage_start          = state.time;
-    state.stage_step           = 0;
-    state.load_time            = 0.;
-    state.load_rate            = 1.;
-    state.get<ImplicitState>() = ImplicitState();
-    begin_pattern(previous, state);
+    state.stage_start                       = state.time;
+    state.stage_step                        = 0;
+    state.load_time                         = 0.;
+    state.load_rate                         = 1.;
+    state.template get<ImplicitState>()     = ImplicitState();
+    state.template get<ImplicitState>().dim = dim;
+    this->begin_pattern(previous, state);
     prepare_stage(state);
     hold_what_is_out_of_balance(previous, state);
   }
 
-  void ImplicitSolver::resume_stage(const StageParameters &resumed,
-                                    const StageParameters *previous,
-                                    State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::resume_stage(const StageParameters &resumed,
+                                         const StageParameters *previous,
+                                         State<dim> &state)
   {
-    activate(resumed, state);
-    if (all.water)
-      all.water->resume_stage(state);
-    ramp_gravity(previous, 0.);
-    for (MotionConstraint<2> *constraint : acting.constraints)
+    this->activate(resumed, state);
+    if constexpr (dim == 2)
+      if (all.water)
+        all.water->resume_stage(state);
+    this->ramp_gravity(previous, 0.);
+    for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->set_mass(model.mass());
-    if (state.get<ImplicitState>().jumps)
+    if (state.template get<ImplicitState>().jumps)
     {
       last_equilibrium = state;
-      std::istringstream archived(state.get<ImplicitState>().before_jump);
+      std::istringstream archived(
+          state.template get<ImplicitState>().before_jump);
       boost::archive::binary_iarchive archive(archived);
       archive >> last_equilibrium;
     }
-    state.get<ImplicitState>().before_jump.clear();
+    state.template get<ImplicitState>().before_jump.clear();
     prepare_stage(state);
   }
 
-  void ImplicitSolver::save(State<2> &state) const
+  template <int dim>
+  void ImplicitSolver<dim>::save(State<dim> &state) const
   {
-    Solver::save(state);
-    if (state.get<ImplicitState>().jumps)
+    Solver<dim>::save(state);
+    if (state.template get<ImplicitState>().jumps)
     {
       std::ostringstream archived;
       boost::archive::binary_oarchive archive(archived);
       archive << last_equilibrium;
-      state.get<ImplicitState>().before_jump = archived.str();
+      state.template get<ImplicitState>().before_jump = archived.str();
     }
   }
 
-  void
-  ImplicitSolver::hold_what_is_out_of_balance(const StageParameters *previous,
-                                              State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::hold_what_is_out_of_balance(
+      const StageParameters *previous, State<dim> &state)
   {
-    ImplicitState &now = state.get<ImplicitState>();
+    ImplicitState &now = state.template get<ImplicitState>();
     now.released       = 1.;
     now.step           = own_steps.first_load_step();
-    if (all.far.elastostatic_acts && !state.get<StaticFarFieldState>().active)
-    {
-      // It holds the forces that its boundary carried until now, without loads
-      // that begin here.
-      std::vector<const NodalLoad<2> *> before;
-      for (const NodalLoad<2> *load : acting.nodal)
-        if (previous && names_load(*previous, load->name()))
-          before.push_back(load);
-      Equilibrium without(model, *dof_map,
-                          operators_with(previous ? before : acting.nodal),
-                          path_sets, stage_start, nullptr);
-      without.find_forces(state, configuration_of(dof_map->bodies(), state),
-                          broken, balance);
-      all.far.elastostatic->hold(balance.force.data(), state);
-    }
+    if constexpr (dim == 2)
+      if (all.far.elastostatic_acts
+          && !state.template get<StaticFarFieldState>().active)
+      {
+        // It holds the forces that its boundary carried until now, without
+        // loads that begin here.
+        std::vector<const NodalLoad<dim> *> before;
+        for (const NodalLoad<dim> *load : acting.nodal)
+          if (previous && names_load(*previous, load->name()))
+            before.push_back(load);
+        Equilibrium<dim> without(
+            model, *dof_map, operators_with(previous ? before : acting.nodal),
+            path_sets, stage_start, nullptr);
+        without.find_forces(state, configuration_of(dof_map->bodies(), state),
+                            broken, balance);
+        all.far.elastostatic->hold(balance.force.data(), state);
+      }
     equilibrium->find_forces(state, configuration_of(dof_map->bodies(), state),
                              broken, balance);
     if (balance.ratio() <= parameters.force_ratio)
@@ -253,7 +277,7 @@ namespace quoin
     now.step                   = parameters.first_step;
     const unsigned int n_owned = model.nodes().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
-      for (const unsigned int d : { 0, 1 })
+      for (unsigned int d = 0; d < dim; ++d)
         now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i][d] : 0.);
     const auto forces
         = body_forces(dof_map->bodies(), balance.force, communicator);
@@ -261,7 +285,7 @@ namespace quoin
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
       {
-        const RigidBody &body = dof_map->bodies()[b];
+        const RigidBody<dim> &body = dof_map->bodies()[b];
         const double held
             = body.given[d] ? 0. : -forces[b][d] - balance.drives[b][d];
         if (body.platen)
@@ -271,8 +295,10 @@ namespace quoin
       }
   }
 
-  bool ImplicitSolver::find_correction(const StepTarget &target,
-                                       const Configuration &configuration,
+  template <int dim>
+  bool
+  ImplicitSolver<dim>::find_correction(const StepTarget &target,
+                                       const Configuration<dim> &configuration,
                                        const bool is_first, double &share)
   {
     residual = 0.;
@@ -320,11 +346,12 @@ namespace quoin
     return true;
   }
 
-  void ImplicitSolver::correct(const State<2> &state, const double share,
-                               Configuration &configuration)
+  template <int dim>
+  void ImplicitSolver<dim>::correct(const State<dim> &state, const double share,
+                                    Configuration<dim> &configuration)
   {
-    const Configuration from = configuration;
-    double factor            = 0.; // its change
+    const Configuration<dim> from = configuration;
+    double factor                 = 0.; // its change
     if (acting.pattern && dof_map->owned().is_element(dof_map->factor()))
       factor = correction(dof_map->factor());
     if (acting.pattern)
@@ -372,9 +399,11 @@ namespace quoin
     go(best_share);
   }
 
-  ImplicitSolver::Outcome ImplicitSolver::iterate(const State<2> &state,
-                                                  const StepTarget &target,
-                                                  Configuration &configuration)
+  template <int dim>
+  typename ImplicitSolver<dim>::Outcome
+  ImplicitSolver<dim>::iterate(const State<dim> &state,
+                               const StepTarget &target,
+                               Configuration<dim> &configuration)
   {
     std::vector<double> ratios;
     for (unsigned int i = 0;; ++i)
@@ -413,7 +442,7 @@ namespace quoin
                 ? std::min(parameters.force_ratio, flow_force_ratio)
                 : parameters.force_ratio;
       const double tolerance
-          = stage.safety && state.get<ImplicitState>().jumps
+          = stage.safety && state.template get<ImplicitState>().jumps
                     && target.path == 0.
                 ? std::max(given,
                            drag_share * balance.dragged / balance.applied)
@@ -442,9 +471,10 @@ namespace quoin
     }
   }
 
-  void ImplicitSolver::try_iteration(const State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::try_iteration(const State<dim> &state)
   {
-    const Configuration configuration
+    const Configuration<dim> configuration
         = configuration_of(dof_map->bodies(), state);
     const StepTarget target = own_steps.target(state);
     double share            = 0.;
@@ -456,36 +486,41 @@ namespace quoin
     find_correction(target, configuration, true, share);
   }
 
-  bool ImplicitSolver::break_joints()
+  template <int dim>
+  bool ImplicitSolver<dim>::break_joints()
   {
     double largest = 0.;
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
       if (!broken[p])
-        largest = std::max(largest, model.joints().excess(
-                                        p, balance.state.get<JointHistory>()));
+        largest = std::max(
+            largest, model.joints().excess(
+                         p, balance.state.template get<JointHistoryOf<dim>>()));
     largest = dealii::Utilities::MPI::max(largest, communicator);
     if (largest <= 1e-9)
       return false;
     // The most overstressed point, and those that would follow at once.
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
       if (!broken[p]
-          && model.joints().excess(p, balance.state.get<JointHistory>())
+          && model.joints().excess(
+                 p, balance.state.template get<JointHistoryOf<dim>>())
                  >= 0.7 * largest)
         broken[p] = 1;
     return true;
   }
 
-  ImplicitSolver::Outcome ImplicitSolver::solve(const State<2> &state,
-                                                const StepTarget &target,
-                                                Configuration &configuration)
+  template <int dim>
+  typename ImplicitSolver<dim>::Outcome
+  ImplicitSolver<dim>::solve(const State<dim> &state, const StepTarget &target,
+                             Configuration<dim> &configuration)
   {
     configuration = configuration_of(dof_map->bodies(), state);
     broken.assign(model.joints().n_points(), 0);
     iteration  = 0;
     last_share = 1.;
-    if (all.water && all.water->acts())
-      all.water->begin_step(state);
-    for (NodalLoad<2> &load : all.nodal)
+    if constexpr (dim == 2)
+      if (all.water && all.water->acts())
+        all.water->begin_step(state);
+    for (NodalLoad<dim> &load : all.nodal)
       load.find_crack(state);
     unsigned int n_cracks = 0;
     // Brittle joints break one after the other, each at an equilibrium, and
@@ -501,11 +536,13 @@ namespace quoin
       if (n_without_new_water == 0)
         n_without_new_water = iteration;
       followed = JointFlow::Followed::balanced;
-      if (all.water && all.water->acts())
-        followed = all.water->follow(
-            configuration.nodes.data(),
-            { configuration.load_time, stage_start + configuration.load_time });
-      for (NodalLoad<2> &load : all.nodal)
+      if constexpr (dim == 2)
+        if (all.water && all.water->acts())
+          followed
+              = all.water->follow(configuration.nodes.data(),
+                                  { configuration.load_time,
+                                    stage_start + configuration.load_time });
+      for (NodalLoad<dim> &load : all.nodal)
         if (names_load(stage, load.name()) && !load.follow_crack(balance.state)
             && followed == JointFlow::Followed::balanced)
           followed = ++n_cracks > most_cracks ? JointFlow::Followed::lost
@@ -517,25 +554,27 @@ namespace quoin
                                                  : Outcome::converged;
   }
 
-  void ImplicitSolver::step(State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::step(State<dim> &state)
   {
     current_step = state.step;
-    if (!state.get<ImplicitState>().jumps)
+    if (!state.template get<ImplicitState>().jumps)
       last_equilibrium = state;
-    Configuration configuration;
+    Configuration<dim> configuration;
     for (attempt = 0;; ++attempt)
     {
       const StepTarget target = own_steps.target(state);
-      equilibrium->set_drag(state.get<ImplicitState>().jumps
-                                ? 1. / state.get<ImplicitState>().drag_step
-                                : 0.);
+      equilibrium->set_drag(
+          state.template get<ImplicitState>().jumps
+              ? 1. / state.template get<ImplicitState>().drag_step
+              : 0.);
       Outcome outcome = solve(state, target, configuration);
       if (outcome == Outcome::converged && target.path > 0.
           && configuration.load_time > own_steps.duration())
       {
         // The end of the stage is near: load control to reach it exactly.
-        state.get<ImplicitState>().follows_path = false;
-        state.get<ImplicitState>().step
+        state.template get<ImplicitState>().follows_path = false;
+        state.template get<ImplicitState>().step
             = (own_steps.duration() - state.load_time) / own_steps.duration();
         continue;
       }
@@ -543,8 +582,8 @@ namespace quoin
       // may find an equilibrium far away, where blocks have slid until their
       // tilt holds them: it is none of the path that the loads follow.
       const double most
-          = state.get<ImplicitState>().jumps
-                ? own_steps.most_jump_path(state.get<ImplicitState>())
+          = state.template get<ImplicitState>().jumps
+                ? own_steps.most_jump_path(state.template get<ImplicitState>())
                 : collapse_share * model.nodes().table().diagonal();
       if (outcome == Outcome::converged && std::abs(balance.path) <= most)
         break;
@@ -552,17 +591,19 @@ namespace quoin
       if (!own_steps.cut(equilibrium->measures_path(), state))
         give_up(state);
     }
-    const State<2> before = state;
+    const State<dim> before = state;
     commit(configuration, state);
-    if (state.get<ImplicitState>().jumps)
+    if (state.template get<ImplicitState>().jumps)
       go_on_jumping(before, state);
     else
       own_steps.adapt(before, iteration, balance.path, state);
   }
 
-  void ImplicitSolver::go_on_jumping(const State<2> &before, State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::go_on_jumping(const State<dim> &before,
+                                          State<dim> &state)
   {
-    ImplicitState &now = state.get<ImplicitState>();
+    ImplicitState &now = state.template get<ImplicitState>();
     now.jump_loss += state.energy.damping - before.energy.damping;
     ++now.n_drag;
     now.drag_time += now.drag_step;
@@ -580,7 +621,7 @@ namespace quoin
       return;
     // Near an equilibrium: test whether it is one without drag.
     equilibrium->set_drag(0.);
-    Configuration configuration;
+    Configuration<dim> configuration;
     const StepTarget target{ now.jump_time, 1., 0. };
     if (solve(state, target, configuration) == Outcome::failed)
       return;
@@ -597,33 +638,37 @@ namespace quoin
           dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
   }
 
-  double
-  ImplicitSolver::largest_move(const AlignedArray<NodeRecord<2>> &from,
-                               const AlignedArray<NodeRecord<2>> &to) const
+  template <int dim>
+  double ImplicitSolver<dim>::largest_move(
+      const AlignedArray<NodeRecord<dim>> &from,
+      const AlignedArray<NodeRecord<dim>> &to) const
   {
     double moved = 0.;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (const unsigned int d : { 0, 1 })
+      for (unsigned int d = 0; d < dim; ++d)
         moved = std::max(moved, std::abs(to[i].u[d] - from[i].u[d]));
     return dealii::Utilities::MPI::max(moved, communicator);
   }
 
-  void ImplicitSolver::give_up(State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::give_up(State<dim> &state)
   {
-    const double tried = std::abs(state.get<ImplicitState>().step);
-    const bool jumped  = state.get<ImplicitState>().jumps;
+    const double tried = std::abs(state.template get<ImplicitState>().step);
+    const bool jumped  = state.template get<ImplicitState>().jumps;
     state              = last_equilibrium;
     fail(state, tried, jumped);
   }
 
-  void ImplicitSolver::move_against_drag(State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::move_against_drag(State<dim> &state)
   {
     last_equilibrium = state;
     own_steps.begin_jump(state);
   }
 
-  void ImplicitSolver::commit(const Configuration &configuration,
-                              State<2> &state)
+  template <int dim>
+  void ImplicitSolver<dim>::commit(const Configuration<dim> &configuration,
+                                   State<dim> &state)
   {
     EnergyAccounts done = balance.state.energy;
     book_work(model, *dof_map,
@@ -634,13 +679,17 @@ namespace quoin
 
     write_configuration(dof_map->bodies(), configuration, state);
     state.copy_slices(balance.state);
-    if (all.water)
-      all.water->commit(state);
-    RigidBlockStage rigid;
-    rigid.held = held_blocks;
-    model.rigid_blocks().follow_nodes(rigid, state);
+    if constexpr (dim == 2)
+    {
+      if (all.water)
+        all.water->commit(state);
+      RigidBlockStage rigid;
+      rigid.held = held_blocks;
+      model.rigid_blocks().follow_nodes(rigid, state);
+    }
     state.unbalanced_ratio = balance.ratio();
-    if (ImplicitState &now = state.get<ImplicitState>(); now.released == 1.)
+    if (ImplicitState &now = state.template get<ImplicitState>();
+        now.released == 1.)
       for (auto *held : { &now.held, &now.held_platens, &now.held_blocks })
         held->clear();
     ++state.step;
@@ -648,29 +697,35 @@ namespace quoin
     // Time also advances while the load time decreases.
     state.time += went;
     if (state.load_time == own_steps.duration()
-        && state.get<ImplicitState>().path_length == 0. && balance.path == 0.)
+        && state.template get<ImplicitState>().path_length == 0.
+        && balance.path == 0.)
       state.time = state.stage_start + own_steps.duration();
     if (all.far.elastostatic_acts)
-      state.get<StaticFarFieldState>().stored = balance.far_field_energy;
+      state.template get<StaticFarFieldState>().stored
+          = balance.far_field_energy;
     EnergyAccounts stored;
-    for (const ForceOperator<2> *each : operators_with(acting.nodal))
+    for (const ForceOperator<dim> *each : operators_with(acting.nodal))
       each->add_stored_energy(state, stored);
-    if (all.beams)
-      all.beams->add_stored_energy(state, stored);
-    find_energies(state, stored);
+    if constexpr (dim == 2)
+      if (all.beams)
+        all.beams->add_stored_energy(state, stored);
+    this->find_energies(state, stored);
   }
 
-  std::array<double, 3> ImplicitSolver::resultant(const std::string &load) const
+  template <int dim>
+  std::array<double, 3>
+  ImplicitSolver<dim>::resultant(const std::string &load) const
   {
-    for (const MotionConstraint<2> *constraint : acting.constraints)
+    for (const MotionConstraint<dim> *constraint : acting.constraints)
       if (constraint->name() == load && !balance.force.empty())
         return reaction(model, *dof_map, all.far.elastostatic, balance,
                         *constraint);
     return {};
   }
 
-  void ImplicitSolver::fail(const State<2> &state, const double tried,
-                            const bool jumped) const
+  template <int dim>
+  void ImplicitSolver<dim>::fail(const State<dim> &state, const double tried,
+                                 const bool jumped) const
   {
     acting.check_finite(stage, state, state.load_time);
     acting.check_finite(stage, state,
@@ -678,8 +733,9 @@ namespace quoin
     const std::string where = worst_place(model, *dof_map, balance, set_names);
     std::ostringstream message;
     message << "no equilibrium was found beyond "
-            << (state.get<ImplicitState>().released < 1.
-                    ? number_text(100. * state.get<ImplicitState>().released)
+            << (state.template get<ImplicitState>().released < 1.
+                    ? number_text(
+                          100. * state.template get<ImplicitState>().released)
                           + " % of what was out of balance at the start"
                     : "the load time " + number_text(state.load_time) + " of "
                           + number_text(own_steps.duration()) + " s")
@@ -699,4 +755,6 @@ namespace quoin
     throw ModelFailure(message.str());
   }
 
+  template class ImplicitSolver<2>;
+  template class ImplicitSolver<3>;
 } // namespace quoin

@@ -38,9 +38,10 @@ namespace quoin
     searches_factor = safety;
   }
 
-  StepTarget ImplicitSteps::target(const State<2> &state) const
+  template <int dim>
+  StepTarget ImplicitSteps::target(const State<dim> &state) const
   {
-    const ImplicitState &now = state.get<ImplicitState>();
+    const ImplicitState &now = state.template get<ImplicitState>();
     if (now.jumps)
       return { now.jump_time, 1., 0. };
     if (now.released < 1.)
@@ -62,9 +63,10 @@ namespace quoin
     return searches_factor ? std::max(most, safety_flow * now.drag_path) : most;
   }
 
-  bool ImplicitSteps::begin_jump(State<2> &state) const
+  template <int dim>
+  bool ImplicitSteps::begin_jump(State<dim> &state) const
   {
-    ImplicitState &now = state.get<ImplicitState>();
+    ImplicitState &now = state.template get<ImplicitState>();
     // A search for the factor of safety asks whether the model keeps moving.
     if (!searches_factor && (!parameters.jumps || now.released < 1.))
       return false;
@@ -108,9 +110,10 @@ namespace quoin
     now.step      = now.last_step;
   }
 
-  bool ImplicitSteps::cut(const bool measures_path, State<2> &state) const
+  template <int dim>
+  bool ImplicitSteps::cut(const bool measures_path, State<dim> &state) const
   {
-    ImplicitState &now = state.get<ImplicitState>();
+    ImplicitState &now = state.template get<ImplicitState>();
     if (now.jumps)
     {
       now.drag_step *= drag_cut;
@@ -143,19 +146,20 @@ namespace quoin
     return now.step >= parameters.smallest_step;
   }
 
-  void ImplicitSteps::adapt(const State<2> &before,
+  template <int dim>
+  void ImplicitSteps::adapt(const State<dim> &before,
                             const unsigned int n_iterations, const double path,
-                            State<2> &state) const
+                            State<dim> &state) const
   {
-    ImplicitState &now = state.get<ImplicitState>();
+    ImplicitState &now = state.template get<ImplicitState>();
     const double went
-        = before.get<ImplicitState>().released < 1.
-              ? now.released - before.get<ImplicitState>().released
+        = before.template get<ImplicitState>().released < 1.
+              ? now.released - before.template get<ImplicitState>().released
               : (state.load_time - before.load_time) / stage_end;
     const double growth
         = std::min(most_growth, std::sqrt(double(parameters.wanted_iterations)
                                           / std::max(1U, n_iterations)));
-    if (before.get<ImplicitState>().released < 1.)
+    if (before.template get<ImplicitState>().released < 1.)
     {
       now.step = std::min(growth * std::max(went, now.step),
                           parameters.largest_step);
@@ -190,4 +194,15 @@ namespace quoin
         now.follows_path = true;
     }
   }
+
+  template StepTarget ImplicitSteps::target(const State<2> &) const;
+  template bool ImplicitSteps::begin_jump(State<2> &) const;
+  template bool ImplicitSteps::cut(bool, State<2> &) const;
+  template void ImplicitSteps::adapt(const State<2> &, unsigned int, double,
+                                     State<2> &) const;
+  template StepTarget ImplicitSteps::target(const State<3> &) const;
+  template bool ImplicitSteps::begin_jump(State<3> &) const;
+  template bool ImplicitSteps::cut(bool, State<3> &) const;
+  template void ImplicitSteps::adapt(const State<3> &, unsigned int, double,
+                                     State<3> &) const;
 } // namespace quoin

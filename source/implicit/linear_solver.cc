@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/implicit/linear_solver.h>
 
 #include <Teuchos_ParameterList.hpp>
@@ -12,7 +13,7 @@ namespace quoin
   namespace
   {
     /** Degrees of freedom beyond which LU factors cost more than iterations. */
-    constexpr DofMap::Index largest_direct = 200000;
+    constexpr DofIndex largest_direct = 200000;
 
     /** Relative residual, negligible in Newton's method [-]. */
     constexpr double iterative_tolerance   = 1e-10;
@@ -24,8 +25,10 @@ namespace quoin
     constexpr unsigned int most_refinements = 3;
   } // namespace
 
-  LinearSolver::LinearSolver(const LinearSolverType type, const Model<2> &model,
-                             const DofMap &dof_map)
+  template <int dim>
+  LinearSolver<dim>::LinearSolver(const LinearSolverType type,
+                                  const Model<dim> &model,
+                                  const DofMap<dim> &dof_map)
     : model(model), dof_map(dof_map),
       direct(type == LinearSolverType::direct
              || (type == LinearSolverType::automatic
@@ -34,8 +37,9 @@ namespace quoin
   {
   }
 
-  bool LinearSolver::prepare(const Matrix &new_matrix,
-                             const Configuration &configuration)
+  template <int dim>
+  bool LinearSolver<dim>::prepare(const Matrix &new_matrix,
+                                  const Configuration<dim> &configuration)
   {
     matrix = &new_matrix;
     if (direct)
@@ -49,7 +53,7 @@ namespace quoin
     data.aggregation_threshold = 0.02;
     std::unique_ptr<Epetra_MultiVector> unused;
     data.set_parameters(list, unused, matrix->trilinos_matrix());
-    list.set("PDE equations", 2);
+    list.set("PDE equations", int(dim));
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", rigid_motions->NumVectors());
     list.set("null space: vectors", rigid_motions->Values());
@@ -57,7 +61,8 @@ namespace quoin
     return true;
   }
 
-  bool LinearSolver::factorise()
+  template <int dim>
+  bool LinearSolver<dim>::factorise()
   {
     const Epetra_CrsMatrix &rows = matrix->trilinos_matrix();
     if (rows.Comm().NumProc() > 1)
@@ -81,7 +86,8 @@ namespace quoin
     return has_pattern && sparse_factors.factorise(values);
   }
 
-  bool LinearSolver::factorise_with_pivoting()
+  template <int dim>
+  bool LinearSolver<dim>::factorise_with_pivoting()
   {
     factors = std::make_unique<dealii::TrilinosWrappers::SolverDirect>(
         control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(
@@ -97,8 +103,9 @@ namespace quoin
     return true;
   }
 
-  bool LinearSolver::solve_by_factors(const Vector &right_hand_side,
-                                      Vector &solution)
+  template <int dim>
+  bool LinearSolver<dim>::solve_by_factors(const Vector &right_hand_side,
+                                           Vector &solution)
   {
     const double scale = right_hand_side.l2_norm();
     sparse_factors.solve(right_hand_side.begin(), solution.begin());
@@ -113,13 +120,17 @@ namespace quoin
     return left <= accepted * scale; // not if it is no number
   }
 
-  void LinearSolver::find_rigid_motions(const Matrix &stiffness,
-                                        const Configuration &configuration)
+  template <int dim>
+  void
+  LinearSolver<dim>::find_rigid_motions(const Matrix &stiffness,
+                                        const Configuration<dim> &configuration)
   {
-    rigid_motions = std::make_unique<Epetra_MultiVector>(
-        stiffness.trilinos_matrix().DomainMap(), 3);
-    const auto set = [&](const unsigned int mode, const DofMap::Index dof,
-                         const double value)
+    // Translations, then the rotation in each plane of axes, xy, xz, yz.
+    constexpr unsigned int n_rotations = dim * (dim - 1) / 2;
+    rigid_motions                      = std::make_unique<Epetra_MultiVector>(
+        stiffness.trilinos_matrix().DomainMap(), dim + n_rotations);
+    const auto set
+        = [&](const unsigned int mode, const DofIndex dof, const double value)
     {
       const int row
           = stiffness.trilinos_matrix().DomainMap().LID(static_cast<int>(dof));
@@ -128,41 +139,47 @@ namespace quoin
     // Rigid body modes about a corner of the model, in units of its size.
     const auto origin = model.nodes().table().box[0];
     const double size = model.nodes().table().diagonal();
-    const auto place  = [&](const DofMap::Index first, const double x,
-                           const double y, const bool(&free)[2])
+    const auto place  = [&](const DofIndex first, const dealii::Point<dim> &at,
+                           const std::array<bool, dim> &free)
     {
-      if (free[0])
+      unsigned int mode = dim;
+      for (unsigned int a = 0; a < dim; ++a)
       {
-        set(0, first, 1.);
-        set(2, first, -(y - origin[1]) / size);
-      }
-      if (free[1])
-      {
-        set(1, first + 1, 1.);
-        set(2, first + 1, (x - origin[0]) / size);
+        if (free[a])
+          set(a, first + a, 1.);
+        for (unsigned int b = a + 1; b < dim; ++b, ++mode)
+        {
+          if (free[a])
+            set(mode, first + a, -(at[b] - origin[b]) / size);
+          if (free[b])
+            set(mode, first + b, (at[a] - origin[a]) / size);
+        }
       }
     };
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
     {
-      const NodeRecord<2> &node = configuration.nodes[i];
-      const bool free[2] = { dof_map.is_free(i, 0), dof_map.is_free(i, 1) };
-      place(dof_map.dof(i, 0), node.X[0] + node.u[0], node.X[1] + node.u[1],
-            free);
+      std::array<bool, dim> free;
+      for (unsigned int d = 0; d < dim; ++d)
+        free[d] = dof_map.is_free(i, d);
+      place(dof_map.dof(i, 0), configuration.nodes[i].position(), free);
     }
-    for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
-    {
-      const RigidBody &body = dof_map.bodies()[b];
-      if (!body.counts)
-        continue;
-      const auto &d      = configuration.bodies[b];
-      const bool free[2] = { !body.given[0], !body.given[1] };
-      place(body.first, body.centre[0] + d[0], body.centre[1] + d[1], free);
-      if (!body.given[2])
-        set(2, body.first + 2, 1. / size);
-    }
+    if constexpr (dim == 2)
+      for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
+      {
+        const RigidBody<2> &body = dof_map.bodies()[b];
+        if (!body.counts)
+          continue;
+        place(body.first,
+              dealii::Point<2>(body.centre
+                               + vector_at(configuration.bodies[b], 0)),
+              { { !body.given[0], !body.given[1] } });
+        if (!body.given[2])
+          set(2, body.first + 2, 1. / size);
+      }
   }
 
-  bool LinearSolver::solve(const Vector &right_hand_side, Vector &solution)
+  template <int dim>
+  bool LinearSolver<dim>::solve(const Vector &right_hand_side, Vector &solution)
   {
     iterations         = 0;
     solution           = 0.;
@@ -197,4 +214,7 @@ namespace quoin
     }
     return std::isfinite(solution.l2_norm());
   }
+
+  template class LinearSolver<2>;
+  template class LinearSolver<3>;
 } // namespace quoin

@@ -6,20 +6,22 @@
 
 namespace quoin
 {
-  void book_work(const Model<2> &model, DofMap &dof_map,
-                 const StaticFarField *far_field, const State<2> &state,
-                 const Balance &start, const Configuration &configuration,
-                 const Balance &balance, EnergyAccounts &energy)
+  template <int dim>
+  void book_work(const Model<dim> &model, DofMap<dim> &dof_map,
+                 const StaticFarField *far_field, const State<dim> &state,
+                 const Balance<dim> &start,
+                 const Configuration<dim> &configuration,
+                 const Balance<dim> &balance, EnergyAccounts &energy)
   {
     const MPI_Comm communicator = model.nodes().communicator();
     // Work by the trapezoidal rule, of loads and of reactions of prescribed
     // motions; that of released forces counts as damping.
-    const auto &held    = state.get<ImplicitState>().held;
-    const double left_0 = 1. - state.get<ImplicitState>().released;
+    const auto &held    = state.template get<ImplicitState>().held;
+    const double left_0 = 1. - state.template get<ImplicitState>().released;
     const double left_1 = 1. - configuration.released;
     const double mean   = 0.5 * (left_0 + left_1);
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (const unsigned int d : { 0, 1 })
+      for (unsigned int d = 0; d < dim; ++d)
       {
         const double u = configuration.nodes[i].u[d] - state.nodes[i].u[d];
         double force   = 0.5 * (start.external[i][d] + balance.external[i][d]);
@@ -31,19 +33,19 @@ namespace quoin
           force -= out_of_balance;
         energy.external += force * u;
         if (!held.empty())
-          energy.damping -= mean * held[2 * i + d] * u;
+          energy.damping -= mean * held[dim * i + d] * u;
       }
     if (far_field)
       for (unsigned int k = 0; k < far_field->nodes().size(); ++k)
-        for (const unsigned int d : { 0, 1 })
+        for (unsigned int d = 0; d < dim; ++d)
         {
           const unsigned int node = far_field->nodes()[k];
           energy.external
-              += state.get<StaticFarFieldState>().held[2 * k + d]
+              += state.template get<StaticFarFieldState>().held[dim * k + d]
                  * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
         }
     // Moments are in balance about the arms of their own configuration.
-    const Configuration before = configuration_of(dof_map.bodies(), state);
+    const Configuration<dim> before = configuration_of(dof_map.bodies(), state);
     dof_map.update_arms(before);
     const auto forces_0
         = body_forces(dof_map.bodies(), start.force, communicator);
@@ -52,7 +54,7 @@ namespace quoin
         = body_forces(dof_map.bodies(), balance.force, communicator);
     for (unsigned int b = 0; b < before.bodies.size(); ++b)
     {
-      const RigidBody &body = dof_map.bodies()[b];
+      const RigidBody<dim> &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
       for (unsigned int d = 0; d < 3; ++d)
@@ -67,10 +69,11 @@ namespace quoin
     }
   }
 
-  std::array<double, 3> reaction(const Model<2> &model, const DofMap &dof_map,
-                                 const StaticFarField *far_field,
-                                 const Balance &balance,
-                                 const MotionConstraint<2> &constraint)
+  template <int dim>
+  std::array<double, 3>
+  reaction(const Model<dim> &model, const DofMap<dim> &dof_map,
+           const StaticFarField *far_field, const Balance<dim> &balance,
+           const MotionConstraint<dim> &constraint)
   {
     const MPI_Comm communicator = model.nodes().communicator();
     std::array<double, 3> result{};
@@ -85,20 +88,39 @@ namespace quoin
                                                      : balance.drives[b][d];
       return result;
     }
-    if (&constraint == far_field)
-      result = balance.far_field_force;
-    else if (constraint.traits().kind == MotionKind::prescribed)
-      for (const DofMap::Prescribed &given : dof_map.prescribed())
+    if constexpr (dim == 2)
+      if (&constraint == far_field)
+        result = balance.far_field_force;
+    if (constraint.traits().kind == MotionKind::prescribed)
+      for (const typename DofMap<dim>::Prescribed &given : dof_map.prescribed())
       {
         if (given.part != &(*constraint.parts())[given.component])
           continue;
         const auto &X      = model.nodes().point(given.node);
         const double force = -balance.force[given.node][given.component];
         result[given.component] += force;
-        result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
+        if constexpr (dim == 2)
+          result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
       }
     MPI_Allreduce(MPI_IN_PLACE, result.data(), 3, MPI_DOUBLE, MPI_SUM,
                   communicator);
     return result;
   }
+
+  template void book_work(const Model<2> &, DofMap<2> &, const StaticFarField *,
+                          const State<2> &, const Balance<2> &,
+                          const Configuration<2> &, const Balance<2> &,
+                          EnergyAccounts &);
+  template std::array<double, 3> reaction(const Model<2> &, const DofMap<2> &,
+                                          const StaticFarField *,
+                                          const Balance<2> &,
+                                          const MotionConstraint<2> &);
+  template void book_work(const Model<3> &, DofMap<3> &, const StaticFarField *,
+                          const State<3> &, const Balance<3> &,
+                          const Configuration<3> &, const Balance<3> &,
+                          EnergyAccounts &);
+  template std::array<double, 3> reaction(const Model<3> &, const DofMap<3> &,
+                                          const StaticFarField *,
+                                          const Balance<3> &,
+                                          const MotionConstraint<3> &);
 } // namespace quoin

@@ -6,7 +6,8 @@
 
 namespace quoin
 {
-  double rest_time(const StageLoads<2> &acting, const StageParameters &stage,
+  template <int dim>
+  double rest_time(const StageLoads<dim> &acting, const StageParameters &stage,
                    const double stage_start)
   {
     const auto values
@@ -18,7 +19,7 @@ namespace quoin
                        + "': 'End = static ratio', but its loads never become "
                          "constant. Take 'End = time' and a 'Duration', or "
                          "functions of time that become constant.");
-    for (const MotionConstraint<2> *constraint : acting.constraints)
+    for (const MotionConstraint<dim> *constraint : acting.constraints)
     {
       if (constraint->parts())
         for (const LoadComponent &part : *constraint->parts())
@@ -50,4 +51,9 @@ namespace quoin
     // Loads that jump at the start of the stage are constant from then on.
     return rests > earliest ? rests : 0.;
   }
+
+  template double rest_time(const StageLoads<2> &, const StageParameters &,
+                            double);
+  template double rest_time(const StageLoads<3> &, const StageParameters &,
+                            double);
 } // namespace quoin

@@ -22,15 +22,16 @@ namespace quoin
     }
   } // namespace
 
-  Configuration configuration_of(const RigidBodies &bodies,
-                                 const State<2> &state)
+  template <int dim>
+  Configuration<dim> configuration_of(const RigidBodies<dim> &bodies,
+                                      const State<dim> &state)
   {
-    Configuration result;
+    Configuration<dim> result;
     result.nodes     = state.nodes;
     result.load_time = state.load_time;
-    result.released  = state.get<ImplicitState>().released;
-    result.factor    = state.get<LoadPatternState>().factor;
-    for (const RigidBody &body : bodies)
+    result.released  = state.template get<ImplicitState>().released;
+    result.factor    = state.template get<LoadPatternState>().factor;
+    for (const RigidBody<dim> &body : bodies)
       if (body.platen)
       {
         const double *d = body.platen->rigid_motion()->displacement(state);
@@ -39,85 +40,94 @@ namespace quoin
       else
       {
         const RigidBlockState &block
-            = state.get<RigidBlockStates>()[body.rigid_block];
+            = state.template get<RigidBlockStates>()[body.rigid_block];
         result.bodies.push_back({ { block.displacement[0],
                                     block.displacement[1], block.rotation } });
       }
     return result;
   }
 
-  void write_configuration(const RigidBodies &bodies,
-                           const Configuration &configuration, State<2> &state)
+  template <int dim>
+  void write_configuration(const RigidBodies<dim> &bodies,
+                           const Configuration<dim> &configuration,
+                           State<dim> &state)
   {
-    state.nodes                          = configuration.nodes;
-    state.load_time                      = configuration.load_time;
-    state.get<ImplicitState>().released  = configuration.released;
-    state.get<LoadPatternState>().factor = configuration.factor;
+    state.nodes                                   = configuration.nodes;
+    state.load_time                               = configuration.load_time;
+    state.template get<ImplicitState>().released  = configuration.released;
+    state.template get<LoadPatternState>().factor = configuration.factor;
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       const auto &d = configuration.bodies[b];
       if (bodies[b].platen)
-        std::copy(
-            d.begin(), d.end(),
-            state.get<PlatenState>(bodies[b].platen->name()).displacement);
+        std::copy(d.begin(), d.end(),
+                  state.template get<PlatenState>(bodies[b].platen->name())
+                      .displacement);
       else
       {
         RigidBlockState &block
-            = state.get<RigidBlockStates>()[bodies[b].rigid_block];
+            = state.template get<RigidBlockStates>()[bodies[b].rigid_block];
         block.displacement = vector_at(d, 0);
         block.rotation     = d[2];
       }
     }
   }
 
-  void place_nodes(const RigidBodies &bodies, Configuration &configuration)
+  template <int dim>
+  void place_nodes(const RigidBodies<dim> &bodies,
+                   Configuration<dim> &configuration)
   {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-    {
-      const RigidBody &body = bodies[b];
-      const auto &d         = configuration.bodies[b];
-      const double c = std::cos(d[2]), s = std::sin(d[2]);
-      for (unsigned int i = 0; i < body.nodes.size(); ++i)
+    if constexpr (dim == 2)
+      for (unsigned int b = 0; b < bodies.size(); ++b)
       {
-        NodeRecord<2> &node = configuration.nodes[body.nodes[i]];
-        const double x = body.arms[i][0], y = body.arms[i][1];
-        // Terms that nearly cancel are summed first, to keep digits.
-        node.u[0]
-            = body.centre[0] + x - node.X[0] + d[0] + (c - 1.) * x - s * y;
-        node.u[1]
-            = body.centre[1] + y - node.X[1] + d[1] + s * x + (c - 1.) * y;
+        const RigidBody<dim> &body = bodies[b];
+        const auto &d              = configuration.bodies[b];
+        const double c = std::cos(d[2]), s = std::sin(d[2]);
+        for (unsigned int i = 0; i < body.nodes.size(); ++i)
+        {
+          NodeRecord<dim> &node = configuration.nodes[body.nodes[i]];
+          const double x = body.arms[i][0], y = body.arms[i][1];
+          // Terms that nearly cancel are summed first, to keep digits.
+          node.u[0]
+              = body.centre[0] + x - node.X[0] + d[0] + (c - 1.) * x - s * y;
+          node.u[1]
+              = body.centre[1] + y - node.X[1] + d[1] + s * x + (c - 1.) * y;
+        }
       }
-    }
   }
 
-  void sum_of_platens(const RigidBodies &bodies, BodyValues &values,
+  template <int dim>
+  void sum_of_platens(const RigidBodies<dim> &bodies, BodyValues &values,
                       const MPI_Comm communicator)
   {
     const unsigned int n = std::count_if(bodies.begin(), bodies.end(),
-                                         [](const RigidBody &body)
+                                         [](const RigidBody<dim> &body)
                                          { return body.platen != nullptr; });
     if (n > 0)
       MPI_Allreduce(MPI_IN_PLACE, values.data(), 3 * n, MPI_DOUBLE, MPI_SUM,
                     communicator);
   }
 
-  BodyValues body_forces(const RigidBodies &bodies,
-                         const AlignedArray<dealii::Tensor<1, 2>> &force,
+  template <int dim>
+  BodyValues body_forces(const RigidBodies<dim> &bodies,
+                         const AlignedArray<dealii::Tensor<1, dim>> &force,
                          const MPI_Comm communicator)
   {
     BodyValues result(bodies.size(), { { 0., 0., 0. } });
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int i = 0; i < bodies[b].nodes.size(); ++i)
-      {
-        const dealii::Tensor<1, 2> &f = force[bodies[b].nodes[i]];
-        add_to_vector(result[b], 0, f);
-        result[b][2] += cross(bodies[b].present_arms[i], f);
-      }
+    if constexpr (dim == 2)
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        for (unsigned int i = 0; i < bodies[b].nodes.size(); ++i)
+        {
+          const dealii::Tensor<1, dim> &f = force[bodies[b].nodes[i]];
+          add_to_vector(result[b], 0, f);
+          result[b][2] += cross(bodies[b].present_arms[i], f);
+        }
     sum_of_platens(bodies, result, communicator);
     return result;
   }
 
-  BodyValues body_loads(const RigidBodies &bodies, const TimePoint &time)
+  template <int dim>
+  BodyValues body_loads(const RigidBodies<dim> &bodies, const TimePoint &time)
   {
     BodyValues result(bodies.size(), { { 0., 0., 0. } });
     for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -127,14 +137,16 @@ namespace quoin
     return result;
   }
 
-  double held_force(const RigidBodies &bodies, const ImplicitState &state,
+  template <int dim>
+  double held_force(const RigidBodies<dim> &bodies, const ImplicitState &state,
                     const unsigned int b, const unsigned int d)
   {
     return bodies[b].platen ? state.held_platens[3 * b + d]
                             : state.held_blocks[3 * bodies[b].rigid_block + d];
   }
 
-  void add_body_forces(const RigidBodies &bodies, const BodyValues &force,
+  template <int dim>
+  void add_body_forces(const RigidBodies<dim> &bodies, const BodyValues &force,
                        dealii::TrilinosWrappers::MPI::Vector &right_hand_side)
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -142,4 +154,34 @@ namespace quoin
         if (bodies[b].counts && !bodies[b].given[d])
           right_hand_side(bodies[b].first + d) += force[b][d];
   }
+
+  template Configuration<2> configuration_of(const RigidBodies<2> &,
+                                             const State<2> &);
+  template void write_configuration(const RigidBodies<2> &,
+                                    const Configuration<2> &, State<2> &);
+  template void place_nodes(const RigidBodies<2> &, Configuration<2> &);
+  template void sum_of_platens(const RigidBodies<2> &, BodyValues &, MPI_Comm);
+  template BodyValues body_forces(const RigidBodies<2> &,
+                                  const AlignedArray<dealii::Tensor<1, 2>> &,
+                                  MPI_Comm);
+  template BodyValues body_loads(const RigidBodies<2> &, const TimePoint &);
+  template double held_force(const RigidBodies<2> &, const ImplicitState &,
+                             unsigned int, unsigned int);
+  template void add_body_forces(const RigidBodies<2> &, const BodyValues &,
+                                dealii::TrilinosWrappers::MPI::Vector &);
+
+  template Configuration<3> configuration_of(const RigidBodies<3> &,
+                                             const State<3> &);
+  template void write_configuration(const RigidBodies<3> &,
+                                    const Configuration<3> &, State<3> &);
+  template void place_nodes(const RigidBodies<3> &, Configuration<3> &);
+  template void sum_of_platens(const RigidBodies<3> &, BodyValues &, MPI_Comm);
+  template BodyValues body_forces(const RigidBodies<3> &,
+                                  const AlignedArray<dealii::Tensor<1, 3>> &,
+                                  MPI_Comm);
+  template BodyValues body_loads(const RigidBodies<3> &, const TimePoint &);
+  template double held_force(const RigidBodies<3> &, const ImplicitState &,
+                             unsigned int, unsigned int);
+  template void add_body_forces(const RigidBodies<3> &, const BodyValues &,
+                                dealii::TrilinosWrappers::MPI::Vector &);
 } // namespace quoin

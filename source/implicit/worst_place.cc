@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/point_text.h>
 #include <quoin/implicit/worst_place.h>
+#include <quoin/joint_elements/joint_changes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,32 +16,31 @@ namespace quoin
     /** A joint is named unless a force inside a block is so much larger. */
     constexpr double joint_preference = 10.;
 
-    std::string describe_node(const Model<2> &model,
+    template <int dim>
+    std::string describe_node(const Model<dim> &model,
                               const std::vector<std::string> &set_names,
                               const unsigned int node)
     {
-      const NodeMap<2> &nodes = model.nodes();
+      const NodeMap<dim> &nodes = model.nodes();
       std::ostringstream text;
-      text << "in block " << nodes.block_of_node(node) << " at ("
-           << nodes.point(node)[0] << ", " << nodes.point(node)[1] << ") m";
-      for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
-      {
-        const auto &segment = model.joints().segments()[i];
-        for (unsigned int k = 0; k < 2; ++k)
-          if (segment.lower[k] == node || segment.upper[k] == node)
+      text << "in block " << nodes.block_of_node(node) << " at "
+           << point_text(nodes.point(node)) << " m";
+      for (const auto &face : joint_faces(model.joints()))
+        for (unsigned int k = 0; k < dim; ++k)
+          if (face.lower[k] == node || face.upper[k] == node)
           {
-            const auto &[a, b] = nodes.faces().joints[segment.face].blocks;
-            text << ", at a joint of the set '" << set_names[segment.set]
+            const auto &[a, b] = nodes.faces().joints[face.face].blocks;
+            text << ", at a joint of the set '" << set_names[face.set]
                  << "' between the blocks " << a << " and " << b;
             return text.str();
           }
-      }
       return text.str();
     }
   } // namespace
 
-  std::string worst_place(const Model<2> &model, const DofMap &dof_map,
-                          const Balance &balance,
+  template <int dim>
+  std::string worst_place(const Model<dim> &model, const DofMap<dim> &dof_map,
+                          const Balance<dim> &balance,
                           const std::vector<std::string> &set_names)
   {
     const MPI_Comm communicator = model.nodes().communicator();
@@ -47,11 +48,11 @@ namespace quoin
     // body; a joint if it has nearly as much.
     const unsigned int n_owned = model.nodes().n_owned();
     std::vector<bool> on_joint(model.nodes().n_local(), false);
-    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
-      for (unsigned int k = 0; k < 2; ++k)
+    for (const auto &face : joint_faces(model.joints()))
+      for (unsigned int k = 0; k < dim; ++k)
       {
-        on_joint[model.joints().segments()[i].lower[k]] = true;
-        on_joint[model.joints().segments()[i].upper[k]] = true;
+        on_joint[face.lower[k]] = true;
+        on_joint[face.upper[k]] = true;
       }
     double largest     = -1.;
     unsigned int worst = 0;
@@ -66,7 +67,7 @@ namespace quoin
     for (unsigned int i = 0; i < n_owned; ++i)
     {
       double square = 0.;
-      for (const unsigned int d : { 0, 1 })
+      for (unsigned int d = 0; d < dim; ++d)
         if (dof_map.is_free(i, d))
           square += balance.force[i][d] * balance.force[i][d];
       if (!dof_map.is_in_body(i))
@@ -75,8 +76,8 @@ namespace quoin
     const auto forces
         = body_forces(dof_map.bodies(), balance.force, communicator);
     for (unsigned int b = 0; b < forces.size(); ++b)
-      for (const unsigned int d : { 0, 1 })
-        if (const RigidBody &body = dof_map.bodies()[b];
+      for (unsigned int d = 0; d < 2; ++d)
+        if (const RigidBody<dim> &body = dof_map.bodies()[b];
             !body.given[d] && !body.nodes.empty())
           compare(body.nodes.front(),
                   std::abs(forces[b][d] + balance.drives[b][d]
@@ -91,4 +92,11 @@ namespace quoin
         return text;
     return "nowhere";
   }
+
+  template std::string worst_place(const Model<2> &, const DofMap<2> &,
+                                   const Balance<2> &,
+                                   const std::vector<std::string> &);
+  template std::string worst_place(const Model<3> &, const DofMap<3> &,
+                                   const Balance<3> &,
+                                   const std::vector<std::string> &);
 } // namespace quoin

@@ -3,12 +3,13 @@
 
 // What MatchedJoints gives to solvers that need derivatives.
 
+#include <quoin/joint_elements/breaking_joints.h>
 #include <quoin/joint_elements/matched_joints.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "joint_frame.h"
+#include "joint_response.h"
 #include <quoin/joint_elements/joint_points.h>
 
 namespace quoin
@@ -16,59 +17,6 @@ namespace quoin
   namespace
   {
     using Row = std::array<double, 8>;
-
-    /**
-     * How an increment counts that adds to @p total: as more of it, so that
-     * slip on the way back does not, or by its size where there is none yet.
-     */
-    double sign_of_growth(const double total, const double increment)
-    {
-      return total != 0.       ? std::copysign(1., total)
-             : increment != 0. ? std::copysign(1., increment)
-                               : 0.;
-    }
-
-    /** A point updated for its gap, and the derivatives there. */
-    struct Response
-    {
-      JointTangent<2> tangent;
-      std::array<double, 2> stiffness;      /**< kn, ks of the moment [Pa/m] */
-      double slip_by_pressure;              /**< derivative in the law [m/Pa] */
-      double plastic_opening, plastic_slip; /**< plastic increments [m] */
-      double opens, slips;                  /**< sign_of_growth() of these */
-    };
-
-    /** Updates point @p p for @p opening and @p slip [m]. */
-    template <typename Law>
-    Response respond(const Law &law, const double opening, const double slip,
-                     const bool may_break, const double weight,
-                     JointHistory &history, const unsigned int p,
-                     EnergyAccounts &energy)
-    {
-      auto point                 = read_point(law, history, p);
-      const double total_opening = point.plastic_opening;
-      const double total_slip    = point.plastic_slip;
-      Response result;
-      JointDissipation lost;
-      if constexpr (Law::is_brittle)
-        lost = law.update_waiting(point, opening, slip, may_break,
-                                  result.tangent);
-      else
-        lost = law.update(point, opening, slip, result.tangent);
-      book(lost, weight, energy);
-      write_point(point, history, p);
-      result.stiffness        = law.stiffness_at(point.normal_traction);
-      result.slip_by_pressure = law.slip_by_pressure(point);
-      result.plastic_opening  = point.plastic_opening - total_opening;
-      result.plastic_slip     = point.plastic_slip - total_slip;
-      // An open joint may keep the plastic opening that it had.
-      result.opens
-          = result.plastic_opening == 0.
-                ? 0.
-                : sign_of_growth(total_opening, result.plastic_opening);
-      result.slips = sign_of_growth(total_slip, result.plastic_slip);
-      return result;
-    }
 
     /** How the frame turns with the displacements of its four nodes [1/m]:
         d phi = (E x dE)/|E|^2, E the sum of both edges. */
@@ -102,7 +50,7 @@ namespace quoin
   void MatchedJoints::linearise(State<2> &state, const bool with_stiffness,
                                 const TakeElement<2> &take) const
   {
-    const BreakingJoints *breaking = state.find<BreakingJoints>();
+    const auto *breaking = state.find<BreakingJoints<2>>();
     const std::vector<std::uint8_t> broken
         = breaking ? breaking->points : std::vector<std::uint8_t>(n_points());
     JointHistory &history = state.get<JointHistory>();
@@ -149,17 +97,15 @@ namespace quoin
       const double opening = local_gap[0], slip = local_gap[1];
       const double area    = segment.area[k];
       const unsigned int p = 2 * i + k;
-      Response point;
+      JointResponse<2> point;
       std::visit(
           [&](const auto &law)
           {
-            point = respond(law, opening, slip, broken[p], area * segment.share,
-                            history, p, energy);
+            point = respond<2>(law, opening, slip, broken[p],
+                               area * segment.share, history, p, energy);
           },
           all_laws[segment.set]);
-      result.inelastic += area
-                          * (point.opens * point.plastic_opening
-                             + point.slips * point.plastic_slip);
+      result.inelastic += area * point.growth();
 
       const double sigma = area * history.normal_traction[p];
       const double tau   = area * history.shear_traction[p];

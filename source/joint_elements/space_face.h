@@ -30,7 +30,7 @@ namespace quoin
 
     /** From the position of @p a to that of @p b. Differences of X and of u
         are taken apart, so that small displacements keep their digits. */
-    Vector between(const NodeRecord<3> &a, const NodeRecord<3> &b)
+    inline Vector between(const NodeRecord<3> &a, const NodeRecord<3> &b)
     {
       Vector result;
       for (unsigned int d = 0; d < 3; ++d)
@@ -38,50 +38,63 @@ namespace quoin
       return result;
     }
 
-    Vector gap_vector(const SpaceJointFace &face, const NodeRecord<3> *nodes,
-                      const unsigned int k)
+    inline Vector gap_vector(const SpaceJointFace &face,
+                             const NodeRecord<3> *nodes, const unsigned int k)
     {
       return between(nodes[face.lower[k]], nodes[face.upper[k]]);
     }
 
-    SpaceJointGap components(const SpaceJointFrame &frame, const Vector &gap)
+    inline SpaceJointGap components(const SpaceJointFrame &frame,
+                                    const Vector &gap)
     {
       return { { gap * frame.n, gap * frame.s, gap * frame.t } };
     }
 
-    Vector traction_vector(const SpaceJointFrame &frame, const double normal,
-                           const Slip<3> &shear)
+    inline Vector traction_vector(const SpaceJointFrame &frame,
+                                  const double normal, const Slip<3> &shear)
     {
       return normal * frame.n + shear[0] * frame.s + shear[1] * frame.t;
     }
 
-    void add(const Vector &f, dealii::Tensor<1, 3> &node)
+    inline void add(const Vector &f, dealii::Tensor<1, 3> &node)
     {
       for (unsigned int d = 0; d < 3; ++d)
         node[d] += f[d];
     }
 
-    /**
-     * Subtracts from the nodes of both sides what the rotation of the frame
-     * adds to the derivative of the energy: @p couple [N m], the derivative by
-     * the rotation, times that of the rotation by the nodes, which is that of
-     * rotation_rate().
-     */
-    void subtract_couple(const SpaceJointFace &face,
-                         const SpaceJointFrame &frame, const Vector &couple,
-                         dealii::Tensor<1, 3> *force)
+    /** Frame of a face with the edges @p e1 and @p e2. */
+    template <typename Edge>
+    auto frame_of(const Edge &e1, const Edge &e2)
     {
-      const double lift = couple * frame.s / frame.above;
-      const Vector f2   = -0.5 * lift * frame.n;
-      const Vector f1   = 0.5 / frame.length
-                        * ((couple * frame.t + lift * frame.along) * frame.n
-                           - couple * frame.n * frame.t);
-      for (const auto &side : { face.lower, face.upper })
-      {
-        add(-f1 - f2, force[side[0]]);
-        add(f1, force[side[1]]);
-        add(f2, force[side[2]]);
-      }
+      using std::sqrt;
+      using Number = std::decay_t<decltype(e1[0])>;
+      FaceFrame<Edge, Number> frame;
+      frame.length = sqrt(Number(e1 * e1));
+      frame.s      = e1 / frame.length;
+      frame.n      = cross_product_3d(e1, e2);
+      frame.n /= Number(sqrt(Number(frame.n * frame.n)));
+      frame.t     = cross_product_3d(frame.n, frame.s);
+      frame.along = e2 * frame.s;
+      frame.above = e2 * frame.t;
+      return frame;
+    }
+
+    /**
+     * What the rotation of the frame adds to the derivative of the energy by
+     * the second and the third vertex of each side: @p couple [N m], the
+     * derivative by the rotation, times that of the rotation by the nodes,
+     * which is that of rotation_rate(). The first vertex has minus their sum.
+     */
+    template <typename Couple, typename Number>
+    std::array<Couple, 2> couple_forces(const FaceFrame<Couple, Number> &frame,
+                                        const Couple &couple)
+    {
+      const Number lift = couple * frame.s / frame.above;
+      const Number turn = couple * frame.t + lift * frame.along;
+      const Number spin = couple * frame.n;
+      const Number half = 0.5 / frame.length;
+      return { { half * (turn * frame.n - spin * frame.t),
+                 Number(-0.5 * lift) * frame.n } };
     }
 
     /** Adds the forces of @p face whose points k have the force f(k, gap), on
@@ -101,7 +114,13 @@ namespace quoin
         add(own, force[face.lower[k]]);
         add(-own, force[face.upper[k]]);
       }
-      subtract_couple(face, frame, couple, force);
+      const auto [f1, f2] = couple_forces(frame, couple);
+      for (const auto &side : { face.lower, face.upper })
+      {
+        add(-f1 - f2, force[side[0]]);
+        add(f1, force[side[1]]);
+        add(f2, force[side[2]]);
+      }
     }
   } // namespace
 } // namespace quoin

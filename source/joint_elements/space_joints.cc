@@ -71,16 +71,7 @@ namespace quoin
              * (between(nodes[face.lower[0]], nodes[face.lower[k]])
                 + between(nodes[face.upper[0]], nodes[face.upper[k]]));
     };
-    const Vector e1 = edge(1), e2 = edge(2);
-    SpaceJointFrame frame;
-    frame.length = e1.norm();
-    frame.s      = e1 / frame.length;
-    frame.n      = cross_product_3d(e1, e2);
-    frame.n /= frame.n.norm();
-    frame.t     = cross_product_3d(frame.n, frame.s);
-    frame.along = e2 * frame.s;
-    frame.above = e2 * frame.t;
-    return frame;
+    return frame_of(edge(1), edge(2));
   }
 
   std::array<SpaceJointGap, 3> joint_gaps(const SpaceJointFace &face,

@@ -79,8 +79,6 @@ namespace quoin
   void check_three_dimensions(const Parameters &parameters)
   {
     const Refusals refusals(parameters.file);
-    refusals.refuse_if(parameters.is_implicit, "'Solver = implicit'",
-                       "Take 'explicit'.");
     refusals.refuse_if(parameters.model.plane == PlaneAssumption::plane_stress,
                        "'Plane assumption = plane stress'",
                        "Leave it 'plane strain'.");

@@ -202,6 +202,20 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "space, excavation": (os.path.join(common.VERIFICATION,
                                                "space_tunnel", "case.prm"),
                                   SPACE_YIELDING),
+            # the same in equilibrium, and joints that slip in part
+            "implicit, space": (os.path.join(common.VERIFICATION,
+                                             "space_tunnel", "case.prm"),
+                                SPACE_YIELDING
+                                + ["Solver=implicit",
+                                   "Implicit/First step=0.25",
+                                   "Implicit/Largest step=0.25",
+                                   "Implicit/Force ratio=1e-11"]),
+            "implicit, space, joints": (
+                os.path.join(common.VERIFICATION, "space_incline", "case.prm"),
+                ["Solver=implicit", "Joints/slope/Friction angle=36",
+                 "Stages/slide/Duration=0.1", "Implicit/First step=0.25",
+                 "Implicit/Largest step=0.25",
+                 "Implicit/Force ratio=1e-11"]),
             # a load pattern on divided blocks
             "pattern": (COLLAPSE, COLLAPSING),
             "pattern, named": (

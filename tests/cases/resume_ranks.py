@@ -93,6 +93,7 @@ CASES = {
     "implicit, divided": of_ranks("implicit, divided", ALL,
                                   ["Implicit/First step=0.05",
                                    "Implicit/Largest step=0.05"]),
+    "implicit, space": of_ranks("implicit, space", UP),
     "implicit, quadratic": of_ranks("implicit, divided, cracked", UP,
                                     ["Mesh/Triangles=quadratic"]),
     "implicit, construction": (on_ranks.FILL,

@@ -5,7 +5,7 @@
 
 FEATURES are settings of the base cases of errors.py. Each is read by --check with
 small and with large displacements, by the implicit solver and in three
-dimensions; the table says "yes" where there is no error.
+dimensions by both solvers; the table says "yes" where there is no error.
 
   tests/errors/combinations.py --quoin build/quoin            # compare
   tests/errors/combinations.py --quoin build/quoin --print    # the table
@@ -21,7 +21,8 @@ from errors import HERE, prepare
 
 GUIDE = os.path.join(HERE, "..", "..", "doc", "user_guide.md")
 HEADING = "### What goes together"
-COLUMNS = ["explicit, small", "explicit, large", "implicit", "3-D"]
+COLUMNS = ["explicit, small", "explicit, large", "implicit", "3-D, explicit",
+           "3-D, implicit"]
 COMPOSITE = ["Law=composite", "Cohesion=1e5", "Tensile strength=1e5",
              "Tensile fracture energy=10", "Shear fracture energy=100"]
 BARTON = ["Law=Barton-Bandis", "Friction angle=0", "Residual friction angle=28",
@@ -142,14 +143,15 @@ def settings_of(name, feature, column):
                                "Joints/bed/Curves=bed"]
     elif column == "implicit":
         settings = settings + ["Solver=implicit"]
-    elif column == "3-D":
+    elif column.startswith("3-D"):
         if isinstance(feature, str):
-            return "space.prm", SPACE + ["Loads/push/Type=boundary elements",
-                                         "Loads/push/Boundary=",
-                                         "Loads/push/Lateral=free"]
+            settings = ["Loads/push/Type=boundary elements",
+                        "Loads/push/Boundary=", "Loads/push/Lateral=free"]
         for here, there in IN_SPACE:
             settings = [text.replace(here, there) for text in settings]
         prm, settings = "space.prm", SPACE + settings
+        if column.endswith("implicit"):
+            settings = settings + ["Solver=implicit"]
     return prm, settings
 
 

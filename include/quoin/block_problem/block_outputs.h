@@ -121,8 +121,6 @@ namespace quoin
 
   // Members that exist in two dimensions only.
   template <>
-  void BlockOutputs<2>::write_iterations();
-  template <>
   void BlockOutputs<2>::write_far_field_row(const State<2> &state);
   template <>
   void BlockOutputs<2>::write_water_row(double time, const State<2> &state);

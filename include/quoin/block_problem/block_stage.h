@@ -178,7 +178,8 @@ namespace quoin
 
   /** A stage of the implicit solver, from equilibrium to equilibrium. Throws a
       FailedStep if there is none. */
-  std::unique_ptr<Stage> make_implicit_stage(BlockContext<2> &context,
+  template <int dim>
+  std::unique_ptr<Stage> make_implicit_stage(BlockContext<dim> &context,
                                              unsigned int index);
 
   /**

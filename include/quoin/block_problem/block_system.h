@@ -71,7 +71,7 @@ namespace quoin
     std::unique_ptr<JointFlow> water;
     std::unique_ptr<Solver<dim>> solver;
     ExplicitSolver<dim> *explicit_solver = nullptr; /**< the solver, or null */
-    ImplicitSolver *implicit_solver      = nullptr; /**< the solver, or null */
+    ImplicitSolver<dim> *implicit_solver = nullptr; /**< the solver, or null */
 
   private:
     /** Splits and distributes the mesh of the first rank. */

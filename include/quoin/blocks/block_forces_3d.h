@@ -146,7 +146,8 @@ namespace quoin
                             dealii::Tensor<1, 3> *force) const;
 
     /** A cell's forces and, if @p with_stiffness, minus their derivative; entry
-        3 i + d is node i, component d. Returns true. For elastic cells. */
+        3 i + d is node i, component d. Updates @p history, without which no
+        cell yields. Returns true. */
     bool linearise(unsigned int cell, const NodeRecord<3> *nodes,
                    PlasticHistory &history, CellLinearisation &result,
                    bool with_stiffness = true) const;

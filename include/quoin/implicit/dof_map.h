@@ -20,13 +20,17 @@
 
 namespace quoin
 {
+  using DofIndex  = dealii::types::global_dof_index;
+  using DofVector = dealii::TrilinosWrappers::MPI::Vector;
+
   /**
    * The degrees of freedom of a stage in equilibrium and their constraints.
    *
    * Component d of the displacement of node g of NodeMap::dof_handler() has
-   * the number 2 g + d. Four for each body, a platen or a rigid block, come
+   * the number dim g + d. Four for each body, a platen or a rigid block, come
    * after those of the nodes: displacement x and y of its centre, rotation,
-   * and one that is always zero, so that all come in pairs.
+   * and one that is always zero, so that all come in pairs. Bodies belong to
+   * two dimensions.
    *
    * The last one is the factor of a load pattern, if the stage has one.
    *
@@ -35,11 +39,10 @@ namespace quoin
    * through any rotation, u = d + (R - I) r, in constraints() by their present
    * arms: du = dd + dtheta x (R r).
    */
+  template <int dim>
   class DofMap
   {
   public:
-    using Index       = dealii::types::global_dof_index;
-    using Vector      = dealii::TrilinosWrappers::MPI::Vector;
     using Constraints = dealii::AffineConstraints<double>;
 
     /** A component of a node prescribed by a PrescribedMotion. */
@@ -47,7 +50,7 @@ namespace quoin
     {
       unsigned int node; /**< owned */
       unsigned int component;
-      const LoadComponent *part; /**< component of the PrescribedMotion<2> */
+      const LoadComponent *part; /**< component of the PrescribedMotion<dim> */
     };
 
     /**
@@ -55,19 +58,19 @@ namespace quoin
      * whether a platen moves each rigid block; @p has_factor: whether the
      * stage has a load pattern. Collective.
      */
-    DofMap(const Model<2> &model,
-           const std::vector<MotionConstraint<2> *> &constraints,
-           const std::vector<bool> &held, const State<2> &state,
+    DofMap(const Model<dim> &model,
+           const std::vector<MotionConstraint<dim> *> &constraints,
+           const std::vector<bool> &held, const State<dim> &state,
            bool has_factor = false);
 
     /** Number of the degree of freedom that is the factor of the load pattern;
         invalid without a pattern. The first rank owns it. */
-    Index factor() const
+    DofIndex factor() const
     {
       return factor_dof;
     }
 
-    const RigidBodies &bodies() const
+    const RigidBodies<dim> &bodies() const
     {
       return body_list;
     }
@@ -85,16 +88,17 @@ namespace quoin
       return relevant_dofs;
     }
     /** Degree of freedom of component @p d of a local node. */
-    Index dof(const unsigned int node, const unsigned int d) const
+    DofIndex dof(const unsigned int node, const unsigned int d) const
     {
-      return node_dofs[2 * node + d];
+      return node_dofs[dim * node + d];
     }
-    /** Writes degrees of freedom of @p n local nodes to @p dofs, 2 n long. */
+    /** Writes degrees of freedom of @p n local nodes to @p dofs, dim n
+        long. */
     void get_dofs(const unsigned int *nodes, const unsigned int n,
-                  std::vector<Index> &dofs) const
+                  std::vector<DofIndex> &dofs) const
     {
-      for (unsigned int i = 0; i < 2 * n; ++i)
-        dofs[i] = node_dofs[2 * nodes[i / 2] + i % 2];
+      for (unsigned int i = 0; i < dim * n; ++i)
+        dofs[i] = node_dofs[dim * nodes[i / dim] + i % dim];
     }
 
     /** Constraints of increments, as of the last update_constraints(). */
@@ -119,14 +123,14 @@ namespace quoin
     }
 
     /** Updates the present arms of bodies' nodes for @p configuration. */
-    void update_arms(const Configuration &configuration);
+    void update_arms(const Configuration<dim> &configuration);
 
     /**
      * As update_arms(), and sets constraints() of the increments from
      * @p configuration to the load time @p load_time: their inhomogeneities are
      * the increments of prescribed motions. Collective.
      */
-    void update_constraints(const Configuration &configuration,
+    void update_constraints(const Configuration<dim> &configuration,
                             double load_time);
 
     /**
@@ -134,56 +138,63 @@ namespace quoin
      * freedom and its load time to @p load_time, with all prescribed motions;
      * collective.
      */
-    void move(const Vector &increment, double share, double load_time,
-              Configuration &configuration) const;
+    void move(const DofVector &increment, double share, double load_time,
+              Configuration<dim> &configuration) const;
 
     /** Adds @p force on owned nodes to their degrees of freedom, by
         constraints(); the caller calls compress(). */
-    void add_forces(const AlignedArray<dealii::Tensor<1, 2>> &force,
-                    Vector &right_hand_side) const;
+    void add_forces(const AlignedArray<dealii::Tensor<1, dim>> &force,
+                    DofVector &right_hand_side) const;
 
   private:
-    static constexpr unsigned int dim = 2;
-
     /** Constraint of a local node, received from its owner. */
     struct Tie
     {
-      Index body; /**< first degree of freedom of its body, or invalid */
-      dealii::Tensor<1, 2> motion; /**< present arm or displacement [m] */
-      std::array<bool, 2> given; /**< whether prescribed, if there is no body */
+      DofIndex body; /**< first degree of freedom of its body, or invalid */
+      dealii::Tensor<1, dim> motion; /**< present arm or displacement [m] */
+      std::array<bool, dim>
+          given; /**< whether prescribed, if there is no body */
     };
 
-    void add_platens(const std::vector<MotionConstraint<2> *> &constraints,
-                     const State<2> &state);
+    void add_platens(const std::vector<MotionConstraint<dim> *> &constraints,
+                     const State<dim> &state);
     void add_rigid_blocks(const std::vector<bool> &held);
     void number(bool has_factor);
     /** Increment of component @p d of a driven body [m or rad]. */
-    double given_motion(const RigidBody &body, unsigned int d, double from,
+    double given_motion(const RigidBody<dim> &body, unsigned int d, double from,
                         double to) const;
 
-    const Model<2> &model;
+    const Model<dim> &model;
     MPI_Comm communicator;
     const double stage_start;
-    RigidBodies body_list;
+    RigidBodies<dim> body_list;
     unsigned int n_platens = 0;
-    Index factor_dof       = dealii::numbers::invalid_dof_index;
+    DofIndex factor_dof    = dealii::numbers::invalid_dof_index;
     std::vector<Prescribed> prescribed_list;
     std::vector<bool> absent; /**< flag of each local node */
     std::vector<Tie> ties;    /**< ties of local nodes */
     /** Whether this rank or the other side of a joint has bodies. */
     bool has_bodies = false;
-    std::vector<Index> node_dofs;
+    std::vector<DofIndex> node_dofs;
     dealii::IndexSet owned_dofs, relevant_dofs;
     Constraints affine;
   };
+
+  // Bodies belong to two dimensions.
+  template <>
+  void DofMap<2>::add_platens(const std::vector<MotionConstraint<2> *> &,
+                              const State<2> &);
+  template <>
+  void DofMap<2>::add_rigid_blocks(const std::vector<bool> &);
 
   /**
    * Increment of a driven component between two times of the stage [m or
    * degrees]: of a displacement the difference, of a velocity the integral. The
    * @p place counts if it differs from place to place.
    */
+  template <int dim>
   double given_change(const LoadComponent &component, double from, double to,
-                      double stage_start, const dealii::Point<2> &place = {});
+                      double stage_start, const dealii::Point<dim> &place = {});
 } // namespace quoin
 
 #endif

@@ -63,7 +63,8 @@ namespace quoin
    * implicitly in a pseudo-time (pseudo-transient continuation,
    * @cite KelleyKeyes1998), until it is in equilibrium without drag.
    */
-  class ImplicitSolver : public Solver<2>
+  template <int dim>
+  class ImplicitSolver : public Solver<dim>
   {
   public:
     /**
@@ -71,33 +72,33 @@ namespace quoin
      * joints'; @p far_field: of the load of type 'boundary elements', or null,
      * in all stages. Throws an InputError about loads that need inertia.
      */
-    ImplicitSolver(Model<2> &model, const std::vector<LoadParameters> &loads,
+    ImplicitSolver(Model<dim> &model, const std::vector<LoadParameters> &loads,
                    const ImplicitParameters &parameters,
                    const std::vector<std::string> &joint_sets,
                    std::unique_ptr<StaticFarField> far_field = nullptr);
 
-    void prepare(State<2> &state) const override;
-    void discard_saved(State<2> &state) const override
+    void prepare(State<dim> &state) const override;
+    void discard_saved(State<dim> &state) const override
     {
-      state.get<ImplicitState>().before_jump.clear();
+      state.template get<ImplicitState>().before_jump.clear();
     }
 
     /** Begins a stage as ExplicitSolver::begin_stage(). */
     void begin_stage(const StageParameters &stage,
-                     const StageParameters *previous, State<2> &state);
+                     const StageParameters *previous, State<dim> &state);
     /** Resumes a stage with a state completed by save(). */
     void resume_stage(const StageParameters &stage,
-                      const StageParameters *previous, State<2> &state);
+                      const StageParameters *previous, State<dim> &state);
 
     const ImplicitSteps &steps() const
     {
       return own_steps;
     }
     /** Whether the stage has ended; a jump has its last load_time at once. */
-    bool has_ended(const State<2> &state) const
+    bool has_ended(const State<dim> &state) const
     {
-      return state.get<ImplicitState>().released == 1.
-             && !state.get<ImplicitState>().jumps
+      return state.template get<ImplicitState>().released == 1.
+             && !state.template get<ImplicitState>().jumps
              && state.load_time >= own_steps.duration();
     }
 
@@ -106,23 +107,23 @@ namespace quoin
      * the place of the largest unbalanced force, if there is none within the
      * smallest step; the state is then the last equilibrium.
      */
-    void step(State<2> &state);
+    void step(State<dim> &state);
 
     /** Makes the next steps of a search for the factor of safety those of a
         jump, from @p state on and with all forces released. */
-    void move_against_drag(State<2> &state);
+    void move_against_drag(State<dim> &state);
 
     /**
      * Computes the matrix, its factors and the first correction of the next
      * step, to measure their cost, and discards them.
      */
-    void try_iteration(const State<2> &state);
+    void try_iteration(const State<dim> &state);
     /** Does nothing: in equilibrium internal variables are up to date. */
-    void update_histories(State<2> &) override
+    void update_histories(State<dim> &) override
     {
     }
 
-    void save(State<2> &state) const override;
+    void save(State<dim> &state) const override;
 
     std::array<double, 3> resultant(const std::string &load) const override;
 
@@ -132,7 +133,7 @@ namespace quoin
     {
       return done;
     }
-    DofMap::Index n_unknowns() const
+    DofIndex n_unknowns() const
     {
       return dof_map ? dof_map->owned().size() : 0;
     }
@@ -143,40 +144,47 @@ namespace quoin
     }
 
   private:
+    using Solver<dim>::acting;
+    using Solver<dim>::all;
+    using Solver<dim>::communicator;
+    using Solver<dim>::model;
+    using Solver<dim>::stage;
+    using Solver<dim>::time_shares;
+
     enum class Outcome
     {
       converged,
       failed
     };
 
-    void prepare_stage(const State<2> &state);
+    void prepare_stage(const State<dim> &state);
     /** Joints, blocks, @p loads and what excavated blocks leave behind. */
-    Equilibrium::Operators
-    operators_with(const std::vector<const NodalLoad<2> *> &loads) const;
+    typename Equilibrium<dim>::Operators
+    operators_with(const std::vector<const NodalLoad<dim> *> &loads) const;
     /** Excludes absent rigid blocks from the bodies. */
-    void hold_absent_blocks(const State<2> &state);
+    void hold_absent_blocks(const State<dim> &state);
     void hold_what_is_out_of_balance(const StageParameters *previous,
-                                     State<2> &state);
-    Outcome iterate(const State<2> &state, const StepTarget &target,
-                    Configuration &configuration);
-    Outcome solve(const State<2> &state, const StepTarget &target,
-                  Configuration &configuration);
+                                     State<dim> &state);
+    Outcome iterate(const State<dim> &state, const StepTarget &target,
+                    Configuration<dim> &configuration);
+    Outcome solve(const State<dim> &state, const StepTarget &target,
+                  Configuration<dim> &configuration);
     /** Finds a correction and its share of the advance; false: none. */
     bool find_correction(const StepTarget &target,
-                         const Configuration &configuration, bool is_first,
+                         const Configuration<dim> &configuration, bool is_first,
                          double &share);
-    void correct(const State<2> &state, double share,
-                 Configuration &configuration);
+    void correct(const State<dim> &state, double share,
+                 Configuration<dim> &configuration);
     bool break_joints();
-    void go_on_jumping(const State<2> &before, State<2> &state);
-    void commit(const Configuration &configuration, State<2> &state);
+    void go_on_jumping(const State<dim> &before, State<dim> &state);
+    void commit(const Configuration<dim> &configuration, State<dim> &state);
     /** Largest component of the displacements @p from one configuration
         @p to another [m]; collective. */
-    double largest_move(const AlignedArray<NodeRecord<2>> &from,
-                        const AlignedArray<NodeRecord<2>> &to) const;
+    double largest_move(const AlignedArray<NodeRecord<dim>> &from,
+                        const AlignedArray<NodeRecord<dim>> &to) const;
     /** Makes @p state the last equilibrium and throws the RunError. */
-    [[noreturn]] void give_up(State<2> &state);
-    [[noreturn]] void fail(const State<2> &state, double tried,
+    [[noreturn]] void give_up(State<dim> &state);
+    [[noreturn]] void fail(const State<dim> &state, double tried,
                            bool jumped) const;
 
     const ImplicitParameters parameters;
@@ -186,18 +194,18 @@ namespace quoin
 
     double stage_start = 0.; /**< [s] */
     std::vector<bool> held_blocks;
-    std::unique_ptr<DofMap> dof_map;
-    std::unique_ptr<Equilibrium> equilibrium;
-    std::unique_ptr<LinearSolver> linear_solver;
+    std::unique_ptr<DofMap<dim>> dof_map;
+    std::unique_ptr<Equilibrium<dim>> equilibrium;
+    std::unique_ptr<LinearSolver<dim>> linear_solver;
 
-    State<2> last_equilibrium; /**< state before the current step or jump */
-    Balance start;             /**< balance at the last equilibrium */
-    Balance balance;           /**< balance at the current configuration */
-    Balance trial;             /**< balance of a trial of the line search */
+    State<dim> last_equilibrium; /**< state before the current step or jump */
+    Balance<dim> start;          /**< balance at the last equilibrium */
+    Balance<dim> balance;        /**< balance at the current configuration */
+    Balance<dim> trial;          /**< balance of a trial of the line search */
     Advance advance;
     std::vector<std::uint8_t> broken; /**< joint points, in this step */
     Slopes slopes;
-    DofMap::Vector residual, correction, advanced;
+    DofVector residual, correction, advanced;
 
     unsigned int attempt = 0, iteration = 0;
     double last_share = 1.; /**< last fraction of the line search */

@@ -17,9 +17,10 @@ namespace quoin
   {
     static constexpr const char *slice_name = "implicit";
 
-    /** Unbalanced forces at the start of the stage, x, y of owned nodes, three
-        of each platen and of each rigid block of this rank [N, N m]; empty:
-        none. */
+    unsigned int dim = 2; /**< components of the forces on a node */
+    /** Unbalanced forces at the start of the stage, the components of owned
+        nodes, three of each platen and of each rigid block of this rank
+        [N, N m]; empty: none. */
     std::vector<double> held, held_platens, held_blocks;
     double released  = 1.; /**< released share of them [-] */
     double step      = 0.; /**< next step, share of the stage [-] */
@@ -46,10 +47,10 @@ namespace quoin
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
-      visitor.owned_nodes(held, 2);
+      visitor.owned_nodes(held, dim);
       visitor.same(held_platens);
       visitor.own(held_blocks, 3, RigidBlockStates::slice_name);
-      visitor.same(released, step, last_step, follows_path, path_step,
+      visitor.same(dim, released, step, last_step, follows_path, path_step,
                    path_length, farthest, ahead, jumps, jump_time, drag_step,
                    drag_time, drag_path, n_drag, jump_loss, before_jump);
     }

@@ -51,17 +51,21 @@ namespace quoin
       return rests ? 1. : std::ceil(1. / parameters.largest_step * (1. - 1e-9));
     }
 
-    StepTarget target(const State<2> &state) const;
+    template <int dim>
+    StepTarget target(const State<dim> &state) const;
     /** Reduces the next step; false: it is the smallest one. @p measures_path:
         whether the path can be followed. */
-    bool cut(bool measures_path, State<2> &state) const;
+    template <int dim>
+    bool cut(bool measures_path, State<dim> &state) const;
     /** Chooses the step after that from @p before to @p state, which took
         @p n_iterations and went along @p path [m]. */
-    void adapt(const State<2> &before, unsigned int n_iterations, double path,
-               State<2> &state) const;
+    template <int dim>
+    void adapt(const State<dim> &before, unsigned int n_iterations, double path,
+               State<dim> &state) const;
 
     /** Makes the next step the first of a jump; false: there are none. */
-    bool begin_jump(State<2> &state) const;
+    template <int dim>
+    bool begin_jump(State<dim> &state) const;
     /** As adapt(), within a jump. */
     void adapt_jump(unsigned int n_iterations, double path,
                     ImplicitState &now) const;

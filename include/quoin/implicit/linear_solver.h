@@ -20,23 +20,24 @@ namespace quoin
 {
   /**
    * Solves with the stiffness matrix, by LU factors or by GMRES that is
-   * preconditioned by smoothed aggregation multigrid. Multigrid gets the three
-   * rigid body modes as near null space. One rank has SparseFactors, whose
+   * preconditioned by smoothed aggregation multigrid. Multigrid gets the rigid
+   * body modes as near null space. One rank has SparseFactors, whose
    * solutions are checked; several ranks, matrices with the row of a load
    * factor and those that it does not solve have the factors of KLU, which
    * exchanges any rows.
    */
+  template <int dim>
   class LinearSolver
   {
   public:
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
-    using Vector = DofMap::Vector;
+    using Vector = DofVector;
 
-    LinearSolver(LinearSolverType type, const Model<2> &model,
-                 const DofMap &dof_map);
+    LinearSolver(LinearSolverType type, const Model<dim> &model,
+                 const DofMap<dim> &dof_map);
 
     /** Factorises or sets up the preconditioner; returns success. */
-    bool prepare(const Matrix &matrix, const Configuration &configuration);
+    bool prepare(const Matrix &matrix, const Configuration<dim> &configuration);
 
     /** Solves; returns success. */
     bool solve(const Vector &right_hand_side, Vector &solution);
@@ -53,7 +54,7 @@ namespace quoin
 
   private:
     void find_rigid_motions(const Matrix &matrix,
-                            const Configuration &configuration);
+                            const Configuration<dim> &configuration);
     /** Factorises by SparseFactors; returns success. */
     bool factorise();
     /** Factorises by KLU; returns success. */
@@ -61,8 +62,8 @@ namespace quoin
     /** Solves by SparseFactors; false: the residual stays too large. */
     bool solve_by_factors(const Vector &right_hand_side, Vector &solution);
 
-    const Model<2> &model;
-    const DofMap &dof_map;
+    const Model<dim> &model;
+    const DofMap<dim> &dof_map;
     bool direct;
     const Matrix *matrix = nullptr;
     dealii::SolverControl control;

@@ -17,18 +17,21 @@ namespace quoin
    * @p far_field: null if it does not act. Leaves @p dof_map with the arms of
    * @p configuration. Collective.
    */
-  void book_work(const Model<2> &model, DofMap &dof_map,
-                 const StaticFarField *far_field, const State<2> &state,
-                 const Balance &start, const Configuration &configuration,
-                 const Balance &balance, EnergyAccounts &energy);
+  template <int dim>
+  void book_work(const Model<dim> &model, DofMap<dim> &dof_map,
+                 const StaticFarField *far_field, const State<dim> &state,
+                 const Balance<dim> &start,
+                 const Configuration<dim> &configuration,
+                 const Balance<dim> &balance, EnergyAccounts &energy);
 
   /** Force x, y [N] and moment [N m] of @p constraint, as
       MotionConstraint::resultant(), of all ranks; @p far_field: that of the
       solver, or null. Collective. */
-  std::array<double, 3> reaction(const Model<2> &model, const DofMap &dof_map,
-                                 const StaticFarField *far_field,
-                                 const Balance &balance,
-                                 const MotionConstraint<2> &constraint);
+  template <int dim>
+  std::array<double, 3>
+  reaction(const Model<dim> &model, const DofMap<dim> &dof_map,
+           const StaticFarField *far_field, const Balance<dim> &balance,
+           const MotionConstraint<dim> &constraint);
 } // namespace quoin
 
 #endif

@@ -12,7 +12,8 @@ namespace quoin
   /** Load time from which on the loads of @p stage, which begins at
       @p stage_start, are constant [s]. Throws an InputError if they never are,
       or if a motion goes on. */
-  double rest_time(const StageLoads<2> &acting, const StageParameters &stage,
+  template <int dim>
+  double rest_time(const StageLoads<dim> &acting, const StageParameters &stage,
                    double stage_start);
 } // namespace quoin
 

@@ -15,66 +15,80 @@
 
 namespace quoin
 {
-  /** A platen or a rigid block in equilibrium; see DofMap. */
+  /** A platen or a rigid block in equilibrium; see DofMap. There are none in
+      three dimensions. */
+  template <int dim>
   struct RigidBody
   {
-    const MotionConstraint<2> *platen; /**< null: a rigid block */
+    const MotionConstraint<dim> *platen; /**< null: a rigid block */
     unsigned int rigid_block;
-    dealii::Tensor<1, 2> centre; /**< centre at zero displacement [m] */
-    std::array<bool, 3> given;   /**< prescribed by functions of time */
+    dealii::Tensor<1, dim> centre; /**< centre at zero displacement [m] */
+    std::array<bool, 3> given;     /**< prescribed by functions of time */
     /** First of its degrees of freedom. */
     dealii::types::global_dof_index first;
-    std::vector<unsigned int> nodes;                /**< owned ones */
-    std::vector<dealii::Tensor<1, 2>> arms;         /**< unrotated [m] */
-    std::vector<dealii::Tensor<1, 2>> present_arms; /**< rotated [m] */
+    std::vector<unsigned int> nodes;                  /**< owned ones */
+    std::vector<dealii::Tensor<1, dim>> arms;         /**< unrotated [m] */
+    std::vector<dealii::Tensor<1, dim>> present_arms; /**< rotated [m] */
     bool counts; /**< whether this rank books its work and equations */
   };
 
   /** Platens, which are on all ranks, then the rigid blocks of this rank. */
-  using RigidBodies = std::vector<RigidBody>;
+  template <int dim>
+  using RigidBodies = std::vector<RigidBody<dim>>;
 
   /** Force x, y [N] and moment [N m], or motion, of each body. */
   using BodyValues = std::vector<std::array<double, 3>>;
 
   /** A configuration of the model: State without internal variables. */
+  template <int dim>
   struct Configuration
   {
-    AlignedArray<NodeRecord<2>> nodes;
+    AlignedArray<NodeRecord<dim>> nodes;
     BodyValues bodies;     /**< x, y [m] and rotation [rad] */
     double load_time = 0.; /**< load time in the stage [s] */
     double released  = 1.; /**< released share of the held forces [-] */
     double factor    = 0.; /**< load factor of the load pattern [-] */
   };
 
-  Configuration configuration_of(const RigidBodies &bodies,
-                                 const State<2> &state);
+  template <int dim>
+  Configuration<dim> configuration_of(const RigidBodies<dim> &bodies,
+                                      const State<dim> &state);
   /** Writes the motion of nodes, platens and rigid blocks, but no times. */
-  void write_configuration(const RigidBodies &bodies,
-                           const Configuration &configuration, State<2> &state);
+  template <int dim>
+  void write_configuration(const RigidBodies<dim> &bodies,
+                           const Configuration<dim> &configuration,
+                           State<dim> &state);
   /** Places the nodes of this rank by the motion of their bodies. */
-  void place_nodes(const RigidBodies &bodies, Configuration &configuration);
+  template <int dim>
+  void place_nodes(const RigidBodies<dim> &bodies,
+                   Configuration<dim> &configuration);
 
   /** Sums the @p values of platens over all ranks. */
-  void sum_of_platens(const RigidBodies &bodies, BodyValues &values,
+  template <int dim>
+  void sum_of_platens(const RigidBodies<dim> &bodies, BodyValues &values,
                       MPI_Comm communicator);
 
   /** Force and moment of @p force on the nodes of each body, about its centre
       with its present arms; collective. */
-  BodyValues body_forces(const RigidBodies &bodies,
-                         const AlignedArray<dealii::Tensor<1, 2>> &force,
+  template <int dim>
+  BodyValues body_forces(const RigidBodies<dim> &bodies,
+                         const AlignedArray<dealii::Tensor<1, dim>> &force,
                          MPI_Comm communicator);
 
   /** Loads on bodies [N, N m]; zero for prescribed components. */
-  BodyValues body_loads(const RigidBodies &bodies, const TimePoint &time);
+  template <int dim>
+  BodyValues body_loads(const RigidBodies<dim> &bodies, const TimePoint &time);
 
   /** Component @p d of the force that @p state, which has held forces, holds
       on body @p b [N, N m]. */
-  double held_force(const RigidBodies &bodies, const ImplicitState &state,
+  template <int dim>
+  double held_force(const RigidBodies<dim> &bodies, const ImplicitState &state,
                     unsigned int b, unsigned int d);
 
   /** Adds forces and moments on bodies to their degrees of freedom, on each
       rank that counts them. */
-  void add_body_forces(const RigidBodies &bodies, const BodyValues &force,
+  template <int dim>
+  void add_body_forces(const RigidBodies<dim> &bodies, const BodyValues &force,
                        dealii::TrilinosWrappers::MPI::Vector &right_hand_side);
 } // namespace quoin
 

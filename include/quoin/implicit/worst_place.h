@@ -14,8 +14,9 @@ namespace quoin
   /** "in block 3 at (1, 2) m", where the unbalanced force of @p balance is the
       largest, and the joint there; @p set_names: of the sets of joints.
       Collective. */
-  std::string worst_place(const Model<2> &model, const DofMap &dof_map,
-                          const Balance &balance,
+  template <int dim>
+  std::string worst_place(const Model<dim> &model, const DofMap<dim> &dof_map,
+                          const Balance<dim> &balance,
                           const std::vector<std::string> &set_names);
 } // namespace quoin
 

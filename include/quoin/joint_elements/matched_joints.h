@@ -36,27 +36,6 @@ namespace quoin
     std::array<double, 8> inelastic_gradient;
   };
 
-  /** Points of brittle joints that may break in a step of an implicit solver;
-      see MatchedJoints::linearise(). */
-  struct BreakingJoints
-  {
-    static constexpr const char *slice_name = "breaking joints";
-
-    std::vector<std::uint8_t> points; /**< 1: it may; one entry for each */
-
-    template <typename Visitor>
-    void visit(Visitor &visitor)
-    {
-      visitor.own(points, 2, JointHistory::slice_name);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
-  };
-
   /** A joint face of this rank. */
   struct JointSegment
   {

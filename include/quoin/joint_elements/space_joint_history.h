@@ -65,6 +65,11 @@ namespace quoin
     }
   };
 
+  /** The history of the joints of a model. */
+  template <int dim>
+  using JointHistoryOf
+      = std::conditional_t<dim == 2, JointHistory, SpaceJointHistory>;
+
   template <typename Law>
   using SpacePointOf = typename std::decay_t<Law>::template Point<3>;
 

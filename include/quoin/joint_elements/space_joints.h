@@ -30,14 +30,16 @@ namespace quoin
    * The frame of a joint face and how it turns. Its plane is that of the mean
    * of both sides, with the edges E1 and E2 from its first vertex:
    * normal n along E1 x E2, from the lower to the upper side, tangents s along
-   * E1 and t = n x s.
+   * E1 and t = n x s. Numbers may carry derivatives.
    */
-  struct SpaceJointFrame
+  template <typename Vector, typename Number>
+  struct FaceFrame
   {
-    dealii::Tensor<1, 3> n, s, t;
-    double length;       /**< of E1 [m] */
-    double along, above; /**< E2 = along s + above t [m] */
+    Vector n, s, t;
+    Number length;       /**< of E1 [m] */
+    Number along, above; /**< E2 = along s + above t [m] */
   };
+  using SpaceJointFrame = FaceFrame<dealii::Tensor<1, 3>, double>;
 
   SpaceJointFrame joint_frame(const SpaceJointFace &face,
                               const NodeRecord<3> *nodes);
@@ -100,6 +102,12 @@ namespace quoin
         const State<3> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<3>> &stiffness) const override;
 
+    /** See BreakingJoints. */
+    void linearise(State<3> &state, bool with_stiffness,
+                   const TakeElement<3> &take) const override;
+    /** See MatchedJoints. */
+    double excess(unsigned int point, const SpaceJointHistory &history) const;
+
     const std::vector<SpaceJointFace> &faces() const
     {
       return all_faces;
@@ -159,12 +167,9 @@ namespace quoin
     std::vector<unsigned int> set_begin; /**< first face of each set */
   };
 
-  /** The joints of a model, and their history. */
+  /** The joints of a model. */
   template <int dim>
   using JointsOf = std::conditional_t<dim == 2, MatchedJoints, SpaceJoints>;
-  template <int dim>
-  using JointHistoryOf
-      = std::conditional_t<dim == 2, JointHistory, SpaceJointHistory>;
 } // namespace quoin
 
 #endif

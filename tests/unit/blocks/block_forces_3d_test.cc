@@ -593,3 +593,66 @@ TEST(BlockForces3d, ForcesOfYieldedCellsAreThoseOfTheirEnergy)
     }
   EXPECT_GT(n_checked, 10u);
 }
+
+TEST(BlockForces3d, StiffnessOfYieldingCellsIsTheDerivativeOfTheirForces)
+{
+  TetrahedronBlocks mesh;
+  mesh.add_box({ 1, 1, 1 }, { 1., 0.8, 1.2 });
+  mesh.data.stiffness = { space_stiffness(stone) };
+  mesh.data.laws.resize(1);
+  mesh.data.laws[0].emplace(stone, MohrCoulombStrength{ 2e6, 0.6, 0.2, 1e6 });
+  mesh.add_initial_stress(5e5);
+  BlockForces<3> blocks;
+  blocks.prepare(mesh.data);
+  PlasticHistory history = initial_history(blocks);
+  unsigned int n_yielded = 0;
+  for (unsigned int step = 0; step < 3; ++step)
+  {
+    // Elastic at first, then beyond what bears.
+    mesh.displace(rotation(0.3 * step, { 0.2, 1., 1. }));
+    mesh.disturb(step == 0 ? 1e-6 : 3e-4 * step);
+    PlasticHistory end = history;
+    Forces3 force      = mesh.zero();
+    double lost        = 0.;
+    for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
+      lost += blocks.add_forces(tile, mesh.nodes.data(), end, force.data());
+    double dissipated = 0.;
+    for (unsigned int k = 0; k < mesh.data.cells.size(); ++k)
+    {
+      PlasticHistory trial = history;
+      CellLinearisation cell;
+      ASSERT_TRUE(blocks.linearise(k, mesh.nodes.data(), trial, cell));
+      dissipated += cell.dissipated;
+      n_yielded += (trial.yielding[k] & 3) != 0;
+      EXPECT_EQ(trial.yielding[k], end.yielding[k]);
+      double scale = 0.;
+      for (const auto &row : cell.stiffness)
+        for (const double entry : row)
+          scale = std::max(scale, std::abs(entry));
+      for (unsigned int i = 0; i < 12; ++i)
+        force[cell.nodes[i / 3]][i % 3] -= cell.force[i];
+      for (unsigned int j = 0; j < 12; ++j)
+      {
+        double &u           = mesh.nodes[cell.nodes[j / 3]].u[j % 3];
+        const double before = u, h = 1e-8;
+        std::array<double, 12> ends[2];
+        for (const unsigned int side : { 0U, 1U })
+        {
+          u     = before + (side == 0 ? -h : h);
+          trial = history;
+          CellLinearisation there;
+          blocks.linearise(k, mesh.nodes.data(), trial, there, false);
+          ends[side] = there.force;
+        }
+        u = before;
+        for (unsigned int i = 0; i < 12; ++i)
+          EXPECT_NEAR((ends[1][i] - ends[0][i]) / (2. * h),
+                      -cell.stiffness[i][j], 1e-5 * scale);
+      }
+    }
+    EXPECT_NEAR(dissipated, lost, 1e-12 * (1. + lost));
+    EXPECT_LT(largest(force), 1e-9 * stone.young);
+    history = end;
+  }
+  EXPECT_GT(n_yielded, 6u);
+}

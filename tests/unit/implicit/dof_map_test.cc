@@ -26,7 +26,7 @@ namespace
     std::unique_ptr<TestNodes> nodes;
     std::unique_ptr<Model<2>> model;
     std::unique_ptr<Platen> beam;
-    std::unique_ptr<DofMap> dof_map;
+    std::unique_ptr<DofMap<2>> dof_map;
     State<2> state;
 
     Bodies(const LoadComponent &x, const LoadComponent &y,
@@ -45,18 +45,18 @@ namespace
       state.add<LoadPatternState>();
       beam->set_mass(model->mass());
       beam->begin_stage(state, false);
-      dof_map = std::make_unique<DofMap>(
+      dof_map = std::make_unique<DofMap<2>>(
           *model, std::vector<MotionConstraint<2> *>{ beam.get() },
           std::vector<bool>{ false }, state);
     }
 
-    DofMap::Vector vector() const
+    DofVector vector() const
     {
-      return DofMap::Vector(dof_map->owned(), MPI_COMM_SELF);
+      return DofVector(dof_map->owned(), MPI_COMM_SELF);
     }
 
     /** One value for each degree of freedom of a body that is not given. */
-    DofMap::Vector vector(const Values &values) const
+    DofVector vector(const Values &values) const
     {
       auto result = vector();
       for (unsigned int b = 0; b < values.size(); ++b)
@@ -68,7 +68,7 @@ namespace
     }
 
     /** Expects the block's nodes to have gone rigidly about @p centre. */
-    void expect_rigid(const Configuration &configuration,
+    void expect_rigid(const Configuration<2> &configuration,
                       const unsigned int block,
                       const std::array<double, 2> &centre,
                       const std::array<double, 3> &motion) const
@@ -95,40 +95,40 @@ namespace
 TEST(DofMap, GivenChangeOfADisplacementIsThatOfItsValues)
 {
   const auto kinked = driven(as_displacement, "if(t < 0.5, 2*t, 1) + 3*T");
-  EXPECT_NEAR(given_change(kinked, 0.2, 0.4, 7.), 0.4 + 0.6, 1e-13);
-  EXPECT_NEAR(given_change(kinked, 0.4, 0.9, 7.), 0.2 + 1.5, 1e-13);
-  EXPECT_NEAR(given_change(kinked, 0.9, 0.4, 7.), -1.7, 1e-13);
-  EXPECT_EQ(given_change(kinked, 0.3, 0.3, 7.), 0.);
+  EXPECT_NEAR(given_change<2>(kinked, 0.2, 0.4, 7.), 0.4 + 0.6, 1e-13);
+  EXPECT_NEAR(given_change<2>(kinked, 0.4, 0.9, 7.), 0.2 + 1.5, 1e-13);
+  EXPECT_NEAR(given_change<2>(kinked, 0.9, 0.4, 7.), -1.7, 1e-13);
+  EXPECT_EQ(given_change<2>(kinked, 0.3, 0.3, 7.), 0.);
 }
 
 TEST(DofMap, GivenChangeOfAVelocityIsItsIntegral)
 {
   // A ramp, as platens of walls begin to move; one step goes past it.
   const auto ramp = driven(velocity, "0.02 * min(1, t / 0.001)");
-  EXPECT_NEAR(given_change(ramp, 0., 0.01, 0.), 0.02 * 0.0095, 1e-10);
-  EXPECT_NEAR(given_change(ramp, 0., 5e-4, 0.), 0.02 * 0.125e-3, 1e-16);
-  EXPECT_NEAR(given_change(ramp, 0.01, 0., 0.), -0.02 * 0.0095, 1e-10);
-  EXPECT_NEAR(given_change(ramp, 0.1, 0.1001, 0.), 2e-6, 1e-18);
+  EXPECT_NEAR(given_change<2>(ramp, 0., 0.01, 0.), 0.02 * 0.0095, 1e-10);
+  EXPECT_NEAR(given_change<2>(ramp, 0., 5e-4, 0.), 0.02 * 0.125e-3, 1e-16);
+  EXPECT_NEAR(given_change<2>(ramp, 0.01, 0., 0.), -0.02 * 0.0095, 1e-10);
+  EXPECT_NEAR(given_change<2>(ramp, 0.1, 0.1001, 0.), 2e-6, 1e-18);
 
   // A jump within the step costs 2^-15 of it at most.
   const auto jump = driven(velocity, "if(t < 0.37, 0, 1)");
-  EXPECT_NEAR(given_change(jump, 0., 1., 0.), 0.63, 1e-5);
+  EXPECT_NEAR(given_change<2>(jump, 0., 1., 0.), 0.63, 1e-5);
   const auto run_time = driven(velocity, "T");
-  EXPECT_NEAR(given_change(run_time, 1., 2., 10.), 11.5, 1e-12);
+  EXPECT_NEAR(given_change<2>(run_time, 1., 2., 10.), 11.5, 1e-12);
 
   // There and back: what a cyclic test needs.
   const auto wave = driven(velocity, "cos(2*pi*t)");
-  EXPECT_NEAR(given_change(wave, 0., 0.25, 0.), 0.5 / 3.141592653589793, 1e-12);
-  EXPECT_NEAR(given_change(wave, 0., 1., 0.), 0., 1e-12);
+  EXPECT_NEAR(given_change<2>(wave, 0., 0.25, 0.), 0.5 / 3.141592653589793, 1e-12);
+  EXPECT_NEAR(given_change<2>(wave, 0., 1., 0.), 0., 1e-12);
 
-  EXPECT_EQ(given_change(driven(given_force, "5"), 0., 1., 0.), 0.);
+  EXPECT_EQ(given_change<2>(driven(given_force, "5"), 0., 1., 0.), 0.);
 }
 
 TEST(DofMap, BodiesFollowThroughLargeRotations)
 {
   Bodies run({}, {}, {});
   ASSERT_EQ(run.dof_map->bodies().size(), 2U);
-  Configuration configuration
+  Configuration<2> configuration
       = configuration_of(run.dof_map->bodies(), run.state);
   Values total(2, { { 0., 0., 0. } });
   const Values steps[] = { { { 0.2, -0.4, 1.9 }, { -0.3, 0.1, -2.6 } },
@@ -159,7 +159,7 @@ TEST(DofMap, ProjectionIsTheTransposeOfTheMotion)
 {
   // Virtual work: of forces on nodes that move, of their sums on unknowns.
   Bodies run({}, {}, {});
-  Configuration configuration
+  Configuration<2> configuration
       = configuration_of(run.dof_map->bodies(), run.state);
   run.dof_map->move(run.vector({ { 0.2, -0.4, 1.9 }, { -0.3, 0.1, -2.6 } }), 1.,
                     0., configuration);
@@ -182,7 +182,7 @@ TEST(DofMap, ProjectionIsTheTransposeOfTheMotion)
     double work                        = others[mode / 3][mode % 3];
     for (const double share : { h, -h })
     {
-      Configuration moved = configuration;
+      Configuration<2> moved = configuration;
       run.dof_map->move(direction, share, 0., moved);
       for (unsigned int v = 0; v < force.size(); ++v)
         for (unsigned int d = 0; d < 2; ++d)
@@ -197,14 +197,14 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
   // Pushed to the right by 0.1 m/s, turned by 30 degrees a second, loaded.
   Bodies run(driven(velocity, "0.1"), driven(given_force, "-4e3*t"),
              driven(as_displacement, "30*t"));
-  const RigidBody &beam = run.dof_map->bodies()[0];
+  const RigidBody<2> &beam = run.dof_map->bodies()[0];
   EXPECT_EQ(beam.given, (std::array<bool, 3>{ { true, false, true } }));
   EXPECT_EQ(body_loads(run.dof_map->bodies(), { 2., 2. })[0],
             (std::array<double, 3>{ { 0., -8e3, 0. } }));
   EXPECT_EQ(body_loads(run.dof_map->bodies(), { 2., 2. })[1],
             (std::array<double, 3>{ { 0., 0., 0. } }));
 
-  Configuration configuration
+  Configuration<2> configuration
       = configuration_of(run.dof_map->bodies(), run.state);
   const auto increment = run.vector({ { 9., 0.25, 9. }, { 0., 0., 0. } });
   run.dof_map->move(increment, 1., 3., configuration);
@@ -216,7 +216,7 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
   // What is given on the way to a time near is that of the nodes' motion.
   const double dt = 1e-6;
   run.dof_map->update_constraints(configuration, 3. + dt);
-  Configuration later = configuration;
+  Configuration<2> later = configuration;
   run.dof_map->move(run.vector(), 0., 3. + dt, later);
   for (unsigned int v = 0; v < run.mesh.n_vertices(); ++v)
     for (unsigned int d = 0; d < 2; ++d)
@@ -246,10 +246,10 @@ TEST(DofMap, TheLastMotionOfANodePrevails)
   state.add<LoadPatternState>();
   PrescribedMotion<2> bottom(motion("bottom", "bottom", "1", "2"), nodes);
   PrescribedMotion<2> sides(motion("sides", "sides", "3", ""), nodes);
-  const DofMap dof_map(model, { &bottom, &sides }, {}, state);
+  const DofMap<2> dof_map(model, { &bottom, &sides }, {}, state);
   EXPECT_EQ(dof_map.prescribed().size(), 3U + 1U + 8U);
-  Configuration configuration = configuration_of(dof_map.bodies(), state);
-  DofMap::Vector ones(dof_map.owned(), MPI_COMM_SELF);
+  Configuration<2> configuration = configuration_of(dof_map.bodies(), state);
+  DofVector ones(dof_map.owned(), MPI_COMM_SELF);
   ones = 1.;
   dof_map.move(ones, 10., 0.5, configuration);
   const auto expect_at

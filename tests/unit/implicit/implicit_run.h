@@ -15,7 +15,7 @@ namespace quoin::test
   {
     TestNodes nodes;
     Model<2> model;
-    ImplicitSolver solver;
+    ImplicitSolver<2> solver;
     State<2> state;
 
     ImplicitRun(const BlockMesh<2> &mesh, const ModelParameters &parameters,

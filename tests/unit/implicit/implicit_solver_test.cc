@@ -346,7 +346,7 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
   LoadParameters far;
   far.name = "far";
   far.type = LoadType::boundary_elements;
-  ImplicitSolver solver(
+  ImplicitSolver<2> solver(
       model,
       { far,
         platen("turn", "upper", component(given_force, "0"),
