@@ -20,10 +20,17 @@ namespace quoin
         face, lower[0], ..., upper[2]: entry 3 i + d is node i, component d. */
     using Active = Sacado::Fad::SFad<double, n_dofs>;
 
+    /** A number that does not depend on them. */
+    Active constant(const double value)
+    {
+      return Active(n_dofs, value);
+    }
+
     /** A vector of them, which dealii::Tensor does not take. */
     struct ActiveVector
     {
-      std::array<Active, 3> components;
+      std::array<Active, 3> components{ { constant(0.), constant(0.),
+                                          constant(0.) } };
 
       Active &operator[](const unsigned int d)
       {
@@ -55,7 +62,7 @@ namespace quoin
     }
     ActiveVector operator-(const ActiveVector &a)
     {
-      return Active(-1.) * a;
+      return constant(-1.) * a;
     }
     ActiveVector operator+(ActiveVector a, const ActiveVector &b)
     {
@@ -124,6 +131,7 @@ namespace quoin
              const double area) const
       {
         std::array<Active, n_dofs> result;
+        result.fill(constant(0.));
         const auto add = [&](const unsigned int node, const ActiveVector &f)
         {
           for (unsigned int d = 0; d < 3; ++d)
@@ -132,9 +140,9 @@ namespace quoin
         ActiveVector couple;
         for (unsigned int k = 0; k < 3; ++k)
         {
-          const ActiveVector own = Active(area * tractions[k][0]) * frame.n
-                                   + Active(area * tractions[k][1]) * frame.s
-                                   + Active(area * tractions[k][2]) * frame.t;
+          const ActiveVector own = constant(area * tractions[k][0]) * frame.n
+                                   + constant(area * tractions[k][1]) * frame.s
+                                   + constant(area * tractions[k][2]) * frame.t;
           couple += cross_product_3d(own, gaps[k]);
           add(k, own);
           add(3 + k, -own);
@@ -154,7 +162,7 @@ namespace quoin
       {
         ActiveVector result;
         for (unsigned int d = 0; d < 3; ++d)
-          result[d] = Active(n_dofs, vector[d]);
+          result[d] = constant(vector[d]);
         return result;
       }
 

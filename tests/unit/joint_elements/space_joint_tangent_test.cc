@@ -135,7 +135,7 @@ TEST(SpaceJointTangent, ForcesAreThoseOfExplicitSteps)
       EXPECT_LT(error, 1e-12 * scale);
       EXPECT_NEAR(end.energy.friction + end.energy.fracture
                       + end.energy.crushing,
-                  stack.lost(), 1e-12 * (1. + stack.lost()));
+                  stack.lost(), 1e-12 * (1. + std::abs(stack.lost())));
     }
   }
 }
@@ -186,13 +186,11 @@ TEST(SpaceJointTangent, AnElasticJointHasASymmetricStiffness)
 TEST(SpaceJointTangent, AnIntactBrittleJointWaits)
 {
   Stack stack(coulomb());
+  const Vector n
+      = joint_frame(stack.joints.faces()[0], stack.state.nodes.data()).n;
   for (unsigned int i = 0; i < stack.state.nodes.size(); ++i)
     if (stack.is_high(i))
-      for (unsigned int d = 0; d < 3; ++d)
-        stack.state.nodes[i].u[d]
-            += 1e-3
-               * joint_frame(stack.joints.faces()[0], stack.state.nodes.data())
-                     .n[d];
+      stack.state.nodes[i].u += 1e-3 * n;
   State<3> state = stack.state;
   state.add<BreakingJoints<3>>().points.assign(stack.joints.n_points(), 0);
   stack.joints.linearise(state, false, [](const ElementLinearisation<3> &) {});
