@@ -74,7 +74,8 @@ namespace quoin
             { "iterative", LinearSolverType::iterative } },
           "Solver of linear systems. direct: LU factors; iterative: "
           "GMRES with algebraic multigrid that includes the rigid body modes; "
-          "automatic: iterative beyond 200 000 degrees of freedom.");
+          "automatic: iterative beyond 200 000 degrees of freedom, in three "
+          "dimensions 30 000.");
       if (const ParameterSection *section = entries.read_section())
         check_steps(*section, parameters);
     }

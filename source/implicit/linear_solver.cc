@@ -12,8 +12,10 @@ namespace quoin
 {
   namespace
   {
-    /** Degrees of freedom beyond which LU factors cost more than iterations. */
-    constexpr DofIndex largest_direct = 200000;
+    /** Degrees of freedom beyond which LU factors cost more than iterations:
+        those of a volume fill up more than those of a plane. */
+    template <int dim>
+    constexpr DofIndex largest_direct = dim == 2 ? 200000 : 30000;
 
     /** Relative residual, negligible in Newton's method [-]. */
     constexpr double iterative_tolerance   = 1e-10;
@@ -32,7 +34,7 @@ namespace quoin
     : model(model), dof_map(dof_map),
       direct(type == LinearSolverType::direct
              || (type == LinearSolverType::automatic
-                 && dof_map.owned().size() <= largest_direct)),
+                 && dof_map.owned().size() <= largest_direct<dim>)),
       control(most_iterations, 0.)
   {
   }

@@ -1295,8 +1295,7 @@ def space_fill(case, folder, output, histories):
         # In equilibrium the next stage has rows at the same time.
         before = histories["time"] <= end["time [s]"] * (1 + 1e-9)
         last = histories["time"][before][-1]
-        row = np.flatnonzero(
-            histories["time"] == last)[0 if "implicit" in case["name"] else -1]
+        row = np.flatnonzero(histories["time"] == last)[0]
         found = [histories[name][row] for name in ("low", "high", "traction")]
         scale = max(abs(wanted[0]), abs(wanted[1]))
         if case.get("in situ") and stage == "settle":
