@@ -329,7 +329,10 @@ namespace quoin
                              : 0.;
     if (on_path || share != 0.)
     {
-      if (!linear_solver->solve(slopes.by_advance, advanced))
+      time_shares.measure(
+          solver_phase, [&]()
+          { is_solved = linear_solver->solve(slopes.by_advance, advanced); });
+      if (!is_solved)
         return false;
     }
     if (on_path && !is_first)

@@ -78,7 +78,6 @@ namespace quoin
       is_analysed = true;
       has_pattern
           = rows.Comm().NumProc() == 1
-            && dof_map.factor() == dealii::numbers::invalid_dof_index
             && rows.RowMap().SameAs(rows.ColMap())
             && sparse_factors.analyse(rows.NumMyRows(), starts, columns);
       remainder.reinit(dof_map.owned(), model.nodes().communicator());

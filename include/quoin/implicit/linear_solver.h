@@ -22,9 +22,8 @@ namespace quoin
    * Solves with the stiffness matrix, by LU factors or by GMRES that is
    * preconditioned by smoothed aggregation multigrid. Multigrid gets the rigid
    * body modes as near null space. One rank has SparseFactors, whose
-   * solutions are checked; several ranks, matrices with the row of a load
-   * factor and those that it does not solve have the factors of KLU, which
-   * exchanges any rows.
+   * solutions are checked; several ranks, and matrices that it does not solve,
+   * have the factors of KLU, which exchanges any rows.
    */
   template <int dim>
   class LinearSolver
