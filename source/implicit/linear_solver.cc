@@ -77,8 +77,7 @@ namespace quoin
     {
       is_analysed = true;
       has_pattern
-          = rows.Comm().NumProc() == 1
-            && rows.RowMap().SameAs(rows.ColMap())
+          = rows.Comm().NumProc() == 1 && rows.RowMap().SameAs(rows.ColMap())
             && sparse_factors.analyse(rows.NumMyRows(), starts, columns);
       remainder.reinit(dof_map.owned(), model.nodes().communicator());
       refinement = remainder;

@@ -118,7 +118,8 @@ TEST(DofMap, GivenChangeOfAVelocityIsItsIntegral)
 
   // There and back: what a cyclic test needs.
   const auto wave = driven(velocity, "cos(2*pi*t)");
-  EXPECT_NEAR(given_change<2>(wave, 0., 0.25, 0.), 0.5 / 3.141592653589793, 1e-12);
+  EXPECT_NEAR(given_change<2>(wave, 0., 0.25, 0.), 0.5 / 3.141592653589793,
+              1e-12);
   EXPECT_NEAR(given_change<2>(wave, 0., 1., 0.), 0., 1e-12);
 
   EXPECT_EQ(given_change<2>(driven(given_force, "5"), 0., 1., 0.), 0.);
