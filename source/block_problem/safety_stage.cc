@@ -356,8 +356,7 @@ namespace quoin
       if (safety.failure_displacement > 0.)
         return safety.failure_displacement;
       const Model<dim> &model = *system.model;
-      double energy           = model.blocks().stored_energy(base)
-                      + model.joints().stored_energy(base);
+      double energy = stored_energy(base, model.blocks(), model.joints());
       if constexpr (dim == 2)
         if (const BlockContacts *contacts = system.model->contacts())
           energy += stored_energy(base, *contacts);

@@ -281,10 +281,11 @@ namespace quoin
       state.add<PlasticHistory>() = initial_history(*this);
   }
 
-  double BlockForces<2>::stored_energy(const State<2> &state) const
+  void BlockForces<2>::add_stored_energy(const State<2> &state,
+                                         EnergyAccounts &energies) const
   {
-    return strain_energy(*this, state.nodes.data(),
-                         state.get<PlasticHistory>());
+    energies.strain += strain_energy(*this, state.nodes.data(),
+                                     state.get<PlasticHistory>());
   }
 
   void BlockForces<2>::add_forces(const StepContext &step, State<2> &state,

@@ -384,10 +384,11 @@ namespace quoin
       state.add<PlasticHistory>() = initial_history(*this);
   }
 
-  double BlockForces<3>::stored_energy(const State<3> &state) const
+  void BlockForces<3>::add_stored_energy(const State<3> &state,
+                                         EnergyAccounts &energies) const
   {
-    return strain_energy(*this, state.nodes.data(),
-                         state.get<PlasticHistory>());
+    energies.strain += strain_energy(*this, state.nodes.data(),
+                                     state.get<PlasticHistory>());
   }
 
   void BlockForces<3>::add_forces(const StepContext &step, State<3> &state,

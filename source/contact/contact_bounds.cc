@@ -84,12 +84,12 @@ namespace quoin
     }
   } // namespace
 
-  std::vector<std::uint8_t> MatchedJoints::sets_on_blocks() const
+  std::vector<std::uint8_t> sets_on_blocks(const MatchedJoints &joints,
+                                           const NodeMap<2> &nodes)
   {
-    const NodeMap<2> &nodes   = *node_map;
-    const unsigned int n_sets = all_laws.size();
+    const unsigned int n_sets = joints.laws().size();
     std::vector<std::uint8_t> acts(nodes.table().n_blocks() * n_sets, 0);
-    for (const JointSegment &segment : all_segments)
+    for (const JointSegment &segment : joints.segments())
       for (const unsigned int b : nodes.faces().joints[segment.face].blocks)
         acts[b * n_sets + segment.set] = 1;
     MPI_Allreduce(MPI_IN_PLACE, acts.data(), acts.size(), MPI_UINT8_T, MPI_MAX,
@@ -102,7 +102,7 @@ namespace quoin
     const MPI_Comm communicator    = node_map.communicator();
     const unsigned int n_sets      = laws.size();
     const unsigned int n           = materials.size();
-    std::vector<std::uint8_t> acts = joints.sets_on_blocks();
+    std::vector<std::uint8_t> acts = quoin::sets_on_blocks(joints, node_map);
     const auto material            = [&](const unsigned int cell)
     { return material_of_group[node_map.cells().group[cell]]; };
     std::vector<std::uint8_t> is_there(n, 0);
@@ -149,8 +149,8 @@ namespace quoin
                                         const double impedance,
                                         DampingBound &bound) const
   {
-    add_dashpots(*node_map, thickness, sets_on_blocks(), all_laws, dampings,
-                 masses, impedance, bound);
+    add_dashpots(*node_map, thickness, sets_on_blocks(*this, *node_map),
+                 all_laws, dampings, masses, impedance, bound);
   }
 
   void BlockContacts::add_damping_bound(const std::vector<double> &masses,

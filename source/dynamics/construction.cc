@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/stored_energy.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/dynamics/construction.h>
@@ -136,8 +137,7 @@ namespace quoin
   template <int dim>
   double Construction<dim>::stored_energy(const State<dim> &state) const
   {
-    return model.blocks().stored_energy(state)
-           + model.joints().stored_energy(state);
+    return quoin::stored_energy(state, model.blocks(), model.joints());
   }
 
   template <int dim>

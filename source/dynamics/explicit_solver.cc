@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/stored_energy.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/explicit_solver.h>
@@ -598,10 +599,7 @@ namespace quoin
     state.energy.plastic += model.blocks().update(state.nodes.data(),
                                                   state.get<PlasticHistory>());
     const auto stored = [&]()
-    {
-      return model.joints().stored_energy(state)
-             + model.blocks().stored_energy(state);
-    };
+    { return stored_energy(state, model.joints(), model.blocks()); };
     double energy = stored();
     for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
       // Blocks still tied to a removed block were removed with it.

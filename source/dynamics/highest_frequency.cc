@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/joint_elements/joint_tangent.h>
 #include <quoin/base/plane_geometry.h>
 #include <quoin/dynamics/highest_frequency.h>
 
@@ -108,8 +109,8 @@ namespace quoin
           model.blocks().add_viscous_forces(tile, state.nodes.data(),
                                             velocity.data(), 1., force.data());
         if (contacts.empty())
-          model.joints().add_elastic_forces(state.nodes.data(), velocity.data(),
-                                            force.data());
+          add_elastic_forces(model.joints(), state.nodes.data(),
+                             velocity.data(), force.data());
         nodes.exchange().add_to_owners(force.data());
         if constexpr (dim == 2)
           for (unsigned int i = 0; i < nodes.n_owned() && !contacts.empty();

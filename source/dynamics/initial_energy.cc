@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/stored_energy.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/initial_energy.h>
@@ -38,9 +39,8 @@ namespace quoin
     EnergyAccounts lost;
     lost.plastic      = model.blocks().update(moving.nodes.data(),
                                               moving.template get<PlasticHistory>());
-    const auto stored = [&](const State<dim> &s) {
-      return model.blocks().stored_energy(s) + model.joints().stored_energy(s);
-    };
+    const auto stored = [&](const State<dim> &s)
+    { return stored_energy(s, model.blocks(), model.joints()); };
     AlignedArray<dealii::Tensor<1, dim>> unused(state.nodes.size(),
                                                 dealii::Tensor<1, dim>());
     model.joints().add_forces(moving.nodes.data(),

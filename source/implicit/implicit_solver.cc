@@ -9,7 +9,7 @@
 #include <quoin/implicit/rest_time.h>
 #include <quoin/implicit/worst_place.h>
 #include <quoin/loads/prescribed_motion.h>
-#include <quoin/joint_elements/breaking_joints.h>
+#include <quoin/joint_elements/joint_tangent.h>
 #include <quoin/model/free_bodies.h>
 #include <quoin/operators/archive.h>
 #include <quoin/water/joint_flow.h>
@@ -496,16 +496,16 @@ namespace quoin
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
       if (!broken[p])
         largest = std::max(
-            largest, model.joints().excess(
-                         p, balance.state.template get<JointHistoryOf<dim>>()));
+            largest, excess(model.joints(), p,
+                            balance.state.template get<JointHistoryOf<dim>>()));
     largest = dealii::Utilities::MPI::max(largest, communicator);
     if (largest <= 1e-9)
       return false;
     // The most overstressed point, and those that would follow at once.
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
       if (!broken[p]
-          && model.joints().excess(
-                 p, balance.state.template get<JointHistoryOf<dim>>())
+          && excess(model.joints(), p,
+                    balance.state.template get<JointHistoryOf<dim>>())
                  >= 0.7 * largest)
         broken[p] = 1;
     return true;

@@ -3,7 +3,7 @@
 
 // What SpaceJoints gives to solvers that need derivatives.
 
-#include <quoin/joint_elements/breaking_joints.h>
+#include <quoin/joint_elements/joint_tangent.h>
 
 #include <Sacado.hpp>
 
@@ -275,8 +275,8 @@ namespace quoin
     }
   }
 
-  double SpaceJoints::excess(const unsigned int p,
-                             const SpaceJointHistory &history) const
+  double excess(const SpaceJoints &joints, const unsigned int p,
+                const SpaceJointHistory &history)
   {
     double excess = 0.;
     if (!history.detached[p / 3])
@@ -286,7 +286,7 @@ namespace quoin
             if constexpr (std::decay_t<decltype(law)>::is_brittle)
               excess = law.excess(read_point(law, history, p));
           },
-          all_laws[all_faces[p / 3].set]);
+          joints.laws()[joints.faces()[p / 3].set]);
     return excess;
   }
 } // namespace quoin

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/joint_elements/joint_tangent.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
@@ -232,14 +233,14 @@ namespace quoin
           all_laws[all_faces[i].set]);
   }
 
-  void SpaceJoints::add_elastic_forces(const NodeRecord<3> *nodes,
-                                       const dealii::Tensor<1, 3> *displacement,
-                                       dealii::Tensor<1, 3> *force) const
+  void add_elastic_forces(const SpaceJoints &joints, const NodeRecord<3> *nodes,
+                          const dealii::Tensor<1, 3> *displacement,
+                          dealii::Tensor<1, 3> *force)
   {
-    for (const SpaceJointFace &face : all_faces)
+    for (const SpaceJointFace &face : joints.faces())
       add_rate_forces(
           face, nodes, displacement,
-          [stiffness = stiffness_bound(all_laws[face.set])](unsigned int)
+          [stiffness = stiffness_bound(joints.laws()[face.set])](unsigned int)
           { return stiffness; },
           force);
   }
@@ -261,7 +262,8 @@ namespace quoin
     return result;
   }
 
-  double SpaceJoints::stored_energy(const State<3> &state) const
+  void SpaceJoints::add_stored_energy(const State<3> &state,
+                                      EnergyAccounts &energies) const
   {
     const SpaceJointHistory &history = state.get<SpaceJointHistory>();
     double energy                    = 0.;
@@ -281,7 +283,7 @@ namespace quoin
           },
           all_laws[face.set]);
     }
-    return energy;
+    energies.joint += energy;
   }
 
   void SpaceJoints::add_stiffness_bound(
@@ -313,10 +315,10 @@ namespace quoin
     }
   }
 
-  std::vector<std::string> SpaceJoints::law_field_names() const
+  std::vector<std::string> law_field_names(const SpaceJoints &joints)
   {
     std::vector<std::string> names;
-    for (const JointLaw &law : all_laws)
+    for (const JointLaw &law : joints.laws())
       visit_law(
           [&](const auto &own)
           {
@@ -329,8 +331,8 @@ namespace quoin
     return names;
   }
 
-  double SpaceJoints::law_field(const std::string &name, const unsigned int p,
-                                const SpaceJointHistory &history) const
+  double law_field(const SpaceJoints &joints, const std::string &name,
+                   const unsigned int p, const SpaceJointHistory &history)
   {
     double value = 0.;
     visit_law(
@@ -340,7 +342,7 @@ namespace quoin
             if (field.name == name)
               value = field.value(read_point(law, history, p));
         },
-        all_laws[all_faces[p / 3].set]);
+        joints.laws()[joints.faces()[p / 3].set]);
     return value;
   }
 } // namespace quoin

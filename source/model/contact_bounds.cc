@@ -63,6 +63,6 @@ namespace quoin
   {
     const BlockContacts *contacts = model.contacts();
     return contacts ? contacts->sets_on_blocks()
-                    : model.joints().sets_on_blocks();
+                    : sets_on_blocks(model.joints(), model.nodes());
   }
 } // namespace quoin

@@ -163,7 +163,7 @@ namespace quoin
     const auto *origin               = state.find<ResultOrigin<3>>();
     const bool is_moved              = origin && !origin->displacement.empty();
     const bool slips_later           = origin && !origin->slip.empty();
-    for (const std::string &name : joints.law_field_names())
+    for (const std::string &name : law_field_names(joints))
       fields.of_laws.push_back({ name, {} });
     for (unsigned int i = 0; i < joints.faces().size(); ++i)
     {
@@ -204,7 +204,7 @@ namespace quoin
         fields.shear_traction.push_back(in_plane(
             history.shear_traction[2 * p], history.shear_traction[2 * p + 1]));
         for (auto &[name, values] : fields.of_laws)
-          values.push_back(joints.law_field(name, p, history));
+          values.push_back(law_field(joints, name, p, history));
         fields.state.push_back(state_since_origin(state, p));
       }
     }
@@ -305,7 +305,7 @@ namespace quoin
     {
       const double of_joint_point
           = (2 + 1 + 3 + 1 + 3) * 8 + 8 * 3 + 1
-            + 8 * model.joints().law_field_names().size();
+            + 8 * law_field_names(model.joints()).size();
       constexpr double of_joint = 1 + 4 + 4 * 8 + 3 * 4 + 4 + 1;
       const auto &faces         = model.nodes().faces().joints;
       for (const SpaceJointFace &face : model.joints().faces())

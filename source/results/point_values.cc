@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/results/field_output.h>
 #include <quoin/base/constants.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/blocks/triangle.h>
@@ -77,8 +78,8 @@ namespace quoin
         return static_cast<double>(state_since_origin(state, p));
       case 5:
       case 6:
-        return joints.law_field(component == 5 ? "damage" : "crushing", p,
-                                history);
+        return law_field(joints, component == 5 ? "damage" : "crushing", p,
+                         history);
       default:
       {
         const SpaceJointFrame frame = joint_frame(face, state.nodes.data());

@@ -179,12 +179,8 @@ namespace quoin
     void prepare(State<2> &state) const override;
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
-    double stored_energy(const State<2> &state) const;
     void add_stored_energy(const State<2> &state,
-                           EnergyAccounts &energies) const override
-    {
-      energies.strain += stored_energy(state);
-    }
+                           EnergyAccounts &energies) const override;
     bool is_internal() const override
     {
       return true;

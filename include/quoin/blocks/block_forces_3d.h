@@ -89,12 +89,8 @@ namespace quoin
     void prepare(State<3> &state) const override;
     void add_forces(const StepContext &step, State<3> &state,
                     const NodeForces<3> &forces) override;
-    double stored_energy(const State<3> &state) const;
     void add_stored_energy(const State<3> &state,
-                           EnergyAccounts &energies) const override
-    {
-      energies.strain += stored_energy(state);
-    }
+                           EnergyAccounts &energies) const override;
     bool is_internal() const override
     {
       return true;

@@ -110,7 +110,7 @@ namespace quoin
         std::vector<NodeStiffness<2>> &stiffness) const override;
     void add_damping_bound(const std::vector<double> &masses, double impedance,
                            DampingBound &bound) const override;
-    /** As MatchedJoints::sets_on_blocks(), with sets that may act once the
+    /** As sets_on_blocks() of joints, with sets that may act once the
         block touches others: those of its joints and of new contacts of its
         materials with any that are in the mesh. Collective. */
     std::vector<std::uint8_t> sets_on_blocks() const;

@@ -122,7 +122,7 @@ namespace quoin
 
     /**
      * Finds forces at @p configuration and updates the internal variables of
-     * @p committed for it. @p broken: see MatchedJoints::linearise().
+     * @p committed for it. @p broken: see BreakingJoints.
      * Collective.
      */
     void find_forces(const State<dim> &committed,

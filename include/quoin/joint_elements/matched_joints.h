@@ -18,24 +18,6 @@
 
 namespace quoin
 {
-  /**
-   * A segment's nodal forces and minus their derivative by the displacements
-   * of its nodes, lower[0], lower[1], upper[0], upper[1]: entry 2 i + d is
-   * node i, component d.
-   */
-  struct JointLinearisation
-  {
-    std::array<unsigned int, 4> nodes;
-    std::array<double, 8> force;                    /**< [N] */
-    std::array<std::array<double, 8>, 8> stiffness; /**< [N/m] */
-    /**
-     * Sum over the points of area times what inelastic opening and slip grew
-     * by, less on the way back [m^3], and its derivative [m^2].
-     */
-    double inelastic;
-    std::array<double, 8> inelastic_gradient;
-  };
-
   /** A joint face of this rank. */
   struct JointSegment
   {
@@ -91,23 +73,14 @@ namespace quoin
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
 
-    /** Recoverable energy [J] of this rank's share of the joints. */
-    double stored_energy(const State<2> &state) const;
     void add_stored_energy(const State<2> &state,
-                           EnergyAccounts &energies) const override
-    {
-      energies.joint += stored_energy(state);
-    }
+                           EnergyAccounts &energies) const override;
 
     void add_stiffness_bound(
         const State<2> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<2>> &stiffness) const override;
     void add_damping_bound(const std::vector<double> &masses, double impedance,
                            DampingBound &bound) const override;
-    /** Which sets have joints at each block of the mesh: entry b n + s is 1 if
-        set s of n has. Collective. */
-    std::vector<std::uint8_t> sets_on_blocks() const;
-
     const std::vector<JointSegment> &segments() const
     {
       return all_segments;
@@ -151,38 +124,10 @@ namespace quoin
                             const dealii::Tensor<1, 2> *velocity, double beta,
                             dealii::Tensor<1, 2> *force) const;
 
-    /**
-     * Adds the forces [N] of intact joints that are as stiff as they can become
-     * to @p force, for nodes displaced by @p displacement [m] from @p nodes.
-     */
-    void add_elastic_forces(const NodeRecord<2> *nodes,
-                            const dealii::Tensor<1, 2> *displacement,
-                            dealii::Tensor<1, 2> *force) const;
-
-    /**
-     * What add_forces() does, of all segments or of segment @p i, with its
-     * derivative, consistent with the update of @p history, if
-     * @p with_stiffness; otherwise stiffness and inelastic_gradient are not
-     * set. Books the dissipation.
-     *
-     * The tractions of a brittle joint jump when it breaks, which no Newton
-     * iteration survives. So intact points of a brittle law stay elastic here
-     * beyond their strength unless @p broken or BreakingJoints of the state, an
-     * entry for each point, say that they break; see excess().
-     */
+    /** What add_forces() does, with derivatives; see joint_tangent.h and
+        BreakingJoints. */
     void linearise(State<2> &state, bool with_stiffness,
                    const TakeElement<2> &take) const override;
-    void linearise(unsigned int i, const NodeRecord<2> *nodes,
-                   const std::vector<std::uint8_t> &broken,
-                   JointHistory &history, EnergyAccounts &energy,
-                   JointLinearisation &result,
-                   bool with_stiffness = true) const;
-
-    /**
-     * By how much entry @p point of @p history that linearise() left elastic
-     * exceeds its strength, as a share of its stress; zero or less: it holds.
-     */
-    double excess(unsigned int point, const JointHistory &history) const;
 
   private:
     void group_segments();
@@ -206,21 +151,6 @@ namespace quoin
                             const dealii::Tensor<1, 2> *velocity,
                             dealii::Tensor<1, 2> *force);
 
-    /** Opening and slip of a point [m] and their rates [m/s]. */
-    struct Motion
-    {
-      std::array<double, 2> gap, rate;
-    };
-    /**
-     * Adds to @p force, for the points of segment @p i, the tractions [Pa] that
-     * @p traction (entry of the history, motion) gives if @p acts (entry).
-     */
-    template <typename Acts, typename Traction>
-    void add_rate_forces(unsigned int i, const NodeRecord<2> *nodes,
-                         const dealii::Tensor<1, 2> *velocity, const Acts &acts,
-                         const Traction &traction,
-                         dealii::Tensor<1, 2> *force) const;
-
     const NodeMap<2> *node_map = nullptr;
     Thickness thickness;                    /**< thickness of cell groups */
     std::vector<JointSegment> all_segments; /**< sorted by set */
@@ -233,6 +163,11 @@ namespace quoin
     AlignedArray<SegmentGroup<native_lanes>> groups;
     std::vector<unsigned int> group_begin; /**< first group of each set */
   };
+
+  /** Which sets have joints at each block of the mesh: entry b n + s is 1 if
+     set s of n has. Collective. */
+  std::vector<std::uint8_t> sets_on_blocks(const MatchedJoints &joints,
+                                           const NodeMap<2> &nodes);
 } // namespace quoin
 
 #endif

@@ -90,23 +90,16 @@ namespace quoin
     void add_forces(const StepContext &step, State<3> &state,
                     const NodeForces<3> &forces) override;
 
-    /** Recoverable energy [J] of this rank's share of the joints. */
-    double stored_energy(const State<3> &state) const;
     void add_stored_energy(const State<3> &state,
-                           EnergyAccounts &energies) const override
-    {
-      energies.joint += stored_energy(state);
-    }
+                           EnergyAccounts &energies) const override;
 
     void add_stiffness_bound(
         const State<3> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<3>> &stiffness) const override;
 
-    /** See BreakingJoints. */
+    /** See joint_tangent.h and BreakingJoints. */
     void linearise(State<3> &state, bool with_stiffness,
                    const TakeElement<3> &take) const override;
-    /** See MatchedJoints. */
-    double excess(unsigned int point, const SpaceJointHistory &history) const;
 
     const std::vector<SpaceJointFace> &faces() const
     {
@@ -136,23 +129,9 @@ namespace quoin
                             const dealii::Tensor<1, 3> *velocity, double beta,
                             dealii::Tensor<1, 3> *force) const;
 
-    /**
-     * Adds the forces [N] of intact joints that are as stiff as they can become
-     * to @p force, for nodes displaced by @p displacement [m] from @p nodes.
-     */
-    void add_elastic_forces(const NodeRecord<3> *nodes,
-                            const dealii::Tensor<1, 3> *displacement,
-                            dealii::Tensor<1, 3> *force) const;
-
     /** Adds the forces [N] on the upper side by the tractions of face @p i. */
     dealii::Tensor<1, 3> force_on_upper(unsigned int i,
                                         const State<3> &state) const;
-
-    /** Names of the quantities of the laws for results; see JointField. */
-    std::vector<std::string> law_field_names() const;
-    /** The quantity @p name of point @p p; 0 if its law has none. */
-    double law_field(const std::string &name, unsigned int p,
-                     const SpaceJointHistory &history) const;
 
   private:
     /** add_forces() of a set. */
@@ -166,6 +145,12 @@ namespace quoin
     std::vector<JointLaw> all_laws;
     std::vector<unsigned int> set_begin; /**< first face of each set */
   };
+
+  /** Names of the quantities of the laws for results; see JointField. */
+  std::vector<std::string> law_field_names(const SpaceJoints &joints);
+  /** The quantity @p name of point @p p; 0 if its law has none. */
+  double law_field(const SpaceJoints &joints, const std::string &name,
+                   unsigned int p, const SpaceJointHistory &history);
 
   /** The joints of a model. */
   template <int dim>

@@ -25,7 +25,7 @@ namespace quoin
   DashpotBlocks dashpot_blocks(const Model<2> &model,
                                std::vector<std::uint8_t> is_held);
 
-  /** MatchedJoints::sets_on_blocks() or, if blocks may meet anywhere,
+  /** sets_on_blocks() of the joints or, if blocks may meet anywhere,
       BlockContacts::sets_on_blocks(). Collective. */
   std::vector<std::uint8_t> sets_on_blocks(const Model<2> &model);
 } // namespace quoin

@@ -443,8 +443,8 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
             << "component " << d << ", angle " << angle << ", "
             << kind_of_law(joint.law);
       EXPECT_NEAR(stored_energy(scene.state, *scene.contacts),
-                  scene.joints.stored_energy(matched),
-                  2e-3 * scene.joints.stored_energy(matched));
+                  stored_energy(matched, scene.joints),
+                  2e-3 * stored_energy(matched, scene.joints));
     }
 }
 

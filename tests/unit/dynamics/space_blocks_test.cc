@@ -7,6 +7,7 @@
 #include "../mesh/space_box.h"
 #include "../model/test_models.h"
 
+#include <quoin/operators/stored_energy.h>
 #include <quoin/blocks/block_cells.h>
 #include <quoin/dynamics/central_differences.h>
 #include <quoin/dynamics/kinetic_energy.h>
@@ -120,7 +121,7 @@ namespace
       state.pending = EnergyAccounts();
       stepper.update_neighbours(state, context);
       stepper.add_forces(state, context);
-      stored                     = sum(forces.stored_energy(state));
+      stored                     = sum(stored_energy(state, forces));
       const auto velocity_before = state.velocity;
       StepSums sums;
       stepper.advance_blocks(state, context, false, sums);

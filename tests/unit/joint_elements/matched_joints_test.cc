@@ -5,6 +5,8 @@
 #include "../joint_laws/composite_walk.h"
 #include "../joint_laws/rock_walk.h"
 
+#include <quoin/joint_elements/joint_tangent.h>
+#include <quoin/operators/stored_energy.h>
 #include <quoin/joint_elements/joint_changes.h>
 #include <quoin/joints/point_arrays.h>
 
@@ -290,7 +292,7 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   const double unit = kn * turn * thickness;
   EXPECT_NEAR(force, 4.5 * unit, 1e-6 * unit);
   EXPECT_NEAR(moment, 9. * unit, 1e-6 * unit);
-  EXPECT_NEAR(stack.joints.stored_energy(stack.state), 4.5 * turn * unit,
+  EXPECT_NEAR(stored_energy(stack.state, stack.joints), 4.5 * turn * unit,
               1e-6 * turn * unit);
 
   // At the rate of this motion dampers of the joint's stiffness give the same
@@ -357,7 +359,7 @@ TEST(MatchedJoints, UniformOpeningAndSlip)
       EXPECT_NEAR(stack.force[v][1],
                   share * area * kn * opening + 0.5 * couple * (1. - x), 1e-6);
     }
-  EXPECT_NEAR(stack.joints.stored_energy(stack.state),
+  EXPECT_NEAR(stored_energy(stack.state, stack.joints),
               0.5 * area * (kn * opening * opening + ks * slip * slip), 1e-9);
 }
 
@@ -641,8 +643,8 @@ TEST(MatchedJoints, ViscousForcesByRatesAsElasticOnesByDisplacements)
     stack.joints.add_viscous_forces(stack.state.nodes.data(),
                                     stack.state.get<JointHistory>(),
                                     velocity.data(), 1., viscous.data());
-    stack.joints.add_elastic_forces(stack.state.nodes.data(), velocity.data(),
-                                    elastic.data());
+    add_elastic_forces(stack.joints, stack.state.nodes.data(), velocity.data(),
+                       elastic.data());
     for (unsigned int v = 0; v < velocity.size(); ++v)
       for (unsigned int d = 0; d < 2; ++d)
         EXPECT_NEAR(viscous[v][d], elastic[v][d], 1e-14 * kn);

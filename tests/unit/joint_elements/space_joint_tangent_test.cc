@@ -6,7 +6,7 @@
 
 #include "space_stack.h"
 
-#include <quoin/joint_elements/breaking_joints.h>
+#include <quoin/joint_elements/joint_tangent.h>
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -198,7 +198,7 @@ TEST(SpaceJointTangent, AnIntactBrittleJointWaits)
   for (unsigned int p = 0; p < stack.joints.n_points(); ++p)
   {
     EXPECT_EQ(state.get<SpaceJointHistory>().state[p], JointState::intact);
-    EXPECT_NEAR(stack.joints.excess(p, state.get<SpaceJointHistory>()),
+    EXPECT_NEAR(excess(stack.joints, p, state.get<SpaceJointHistory>()),
                 (8e6 - 0.4e6) / 8e6, 1e-6);
   }
 }

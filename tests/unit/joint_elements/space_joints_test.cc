@@ -3,6 +3,8 @@
 
 #include "space_stack.h"
 
+#include <quoin/joint_elements/joint_tangent.h>
+#include <quoin/operators/stored_energy.h>
 #include <quoin/base/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -82,7 +84,7 @@ TEST(SpaceJoints, ForceIsMinusTheDerivativeOfTheEnergy)
       {
         stack.state.nodes[i].u[d] += side == 0 ? h : -2. * h;
         stack.update();
-        energy[side] = stack.joints.stored_energy(stack.state);
+        energy[side] = stored_energy(stack.state, stack.joints);
       }
       stack.state.nodes[i].u[d] += h;
       largest = std::max(largest, std::abs(force[i][d]));
@@ -191,7 +193,7 @@ namespace
       }
     }
     EXPECT_GT(turnover, 0.);
-    return (work - stack.lost() - stack.joints.stored_energy(stack.state))
+    return (work - stack.lost() - stored_energy(stack.state, stack.joints))
            / turnover;
   }
 } // namespace
@@ -230,8 +232,8 @@ TEST(SpaceJoints, RateForcesAreTheDerivativeOfForces)
   AlignedArray<dealii::Tensor<1, 3>> elastic_force(stack.nodes.n_local(),
                                                    dealii::Tensor<1, 3>()),
       viscous(stack.nodes.n_local(), dealii::Tensor<1, 3>());
-  stack.joints.add_elastic_forces(stack.state.nodes.data(), velocity.data(),
-                                  elastic_force.data());
+  add_elastic_forces(stack.joints, stack.state.nodes.data(), velocity.data(),
+                     elastic_force.data());
   constexpr double beta = 1e-4;
   stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.history(),
                                   velocity.data(), beta, viscous.data());

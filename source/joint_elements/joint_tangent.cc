@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What MatchedJoints gives to solvers that need derivatives.
-
-#include <quoin/joint_elements/breaking_joints.h>
-#include <quoin/joint_elements/matched_joints.h>
+#include <quoin/joint_elements/joint_tangent.h>
 
 #include <algorithm>
 
-#include "joint_frame.h"
+#include "joint_rates.h"
 #include "joint_response.h"
 #include <quoin/joint_elements/joint_points.h>
 
@@ -47,34 +44,13 @@ namespace quoin
     }
   } // namespace
 
-  void MatchedJoints::linearise(State<2> &state, const bool with_stiffness,
-                                const TakeElement<2> &take) const
+  void linearise(const MatchedJoints &joints, const unsigned int i,
+                 const NodeRecord<2> *nodes,
+                 const std::vector<std::uint8_t> &broken, JointHistory &history,
+                 EnergyAccounts &energy, JointLinearisation &result,
+                 const bool with_stiffness)
   {
-    const auto *breaking = state.find<BreakingJoints<2>>();
-    const std::vector<std::uint8_t> broken
-        = breaking ? breaking->points : std::vector<std::uint8_t>(n_points());
-    JointHistory &history = state.get<JointHistory>();
-    JointLinearisation segment;
-    for (unsigned int i = 0; i < all_segments.size(); ++i)
-    {
-      linearise(i, state.nodes.data(), broken, history, state.energy, segment,
-                with_stiffness);
-      take({ segment.nodes.data(), 4, segment.force.data(),
-             segment.stiffness[0].data(), 8, all_segments[i].share,
-             segment.inelastic, segment.inelastic_gradient.data(),
-             all_segments[i].set,
-             all_segments[i].area[0] + all_segments[i].area[1] });
-    }
-  }
-
-  void MatchedJoints::linearise(const unsigned int i,
-                                const NodeRecord<2> *nodes,
-                                const std::vector<std::uint8_t> &broken,
-                                JointHistory &history, EnergyAccounts &energy,
-                                JointLinearisation &result,
-                                const bool with_stiffness) const
-  {
-    const JointSegment &segment = all_segments[i];
+    const JointSegment &segment = joints.segments()[i];
     const JointFrame local      = joint_frame(segment, nodes);
     result.nodes = { { segment.lower[0], segment.lower[1], segment.upper[0],
                        segment.upper[1] } };
@@ -104,7 +80,7 @@ namespace quoin
             point = respond<2>(law, opening, slip, broken[p],
                                area * segment.share, history, p, energy);
           },
-          all_laws[segment.set]);
+          joints.laws()[segment.set]);
       result.inelastic += area * point.growth();
 
       const double sigma = area * history.normal_traction[p];
@@ -151,8 +127,8 @@ namespace quoin
         result.stiffness[i][j] += couple * second_turn(local, i, j);
   }
 
-  double MatchedJoints::excess(const unsigned int p,
-                               const JointHistory &history) const
+  double excess(const MatchedJoints &joints, const unsigned int p,
+                const JointHistory &history)
   {
     double excess = 0.;
     if (!history.handed_over[p / 2])
@@ -162,7 +138,26 @@ namespace quoin
             if constexpr (std::decay_t<decltype(law)>::is_brittle)
               excess = law.excess(read_point(law, history, p));
           },
-          all_laws[all_segments[p / 2].set]);
+          joints.laws()[joints.segments()[p / 2].set]);
     return excess;
+  }
+
+  void add_elastic_forces(const MatchedJoints &joints,
+                          const NodeRecord<2> *nodes,
+                          const dealii::Tensor<1, 2> *displacement,
+                          dealii::Tensor<1, 2> *force)
+  {
+    for (const JointSegment &segment : joints.segments())
+    {
+      const auto [kn, ks] = stiffness_bound(joints.laws()[segment.set]);
+      add_rate_forces(
+          segment, nodes, displacement, [](unsigned int) { return true; },
+          [kn = kn, ks = ks](unsigned int, const JointMotion &motion)
+          {
+            return std::array<double, 2>{ { kn * motion.rate[0],
+                                            ks * motion.rate[1] } };
+          },
+          force);
+    }
   }
 } // namespace quoin
