@@ -3,12 +3,14 @@
 
 #include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/blocks/cell_tangent.h>
 #include <quoin/blocks/cell_states.h>
 
 #include <algorithm>
 #include <limits>
 #include <string>
 
+#include "cell_strain.h"
 #include "plastic_strip_kernel.h"
 
 namespace quoin
@@ -298,6 +300,41 @@ namespace quoin
       if (forces.viscous)
         add_viscous_forces(tile, state.nodes.data(), state.velocity.data(),
                            step.stiffness_damping, forces.viscous);
+    }
+  }
+
+  double BlockForces<2>::update(const NodeRecord<2> *nodes,
+                                PlasticHistory &history) const
+  {
+    double dissipated = 0.;
+    if (!data.is_plastic())
+      return dissipated;
+    for (std::size_t k = 0; k < data.cells.size(); ++k)
+      if (data.law_of(k))
+      {
+        double area;
+        const auto gradient = cell_gradient(data, nodes, k, &area);
+        const CorotatedStrain strain(
+            stretched_gradient(gradient, history.cells[k].inverse_stretch));
+        dissipated += data.thickness_of(k) * area
+                      * update_cell(data, k, strain.e, history).dissipated;
+      }
+    return dissipated;
+  }
+
+  void BlockForces<2>::linearise(State<2> &state, const bool with_stiffness,
+                                 const TakeElement<2> &take) const
+  {
+    CellLinearisation cell;
+    PlasticHistory &history = state.get<PlasticHistory>();
+    for (unsigned int c = 0; c < data.cells.size(); ++c)
+    {
+      if (!linearise_cell(data, c, state.nodes.data(), history, cell,
+                          with_stiffness))
+        continue;
+      state.energy.plastic += cell.dissipated;
+      take({ cell.nodes.data(), cell.n_nodes, cell.force.data(),
+             cell.stiffness[0].data(), unsigned(cell.force.size()) });
     }
   }
 } // namespace quoin

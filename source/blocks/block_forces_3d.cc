@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/operators/archive.h>
+#include <quoin/blocks/cell_tangent.h>
 #include <quoin/blocks/cell_states.h>
 
 #include <algorithm>
@@ -12,45 +13,6 @@
 
 namespace quoin
 {
-  namespace
-  {
-
-    /** Rate of a polar decomposition F = R U. */
-    struct PolarRate
-    {
-      double spin[3]; /**< axial vector of R^T dR/dt */
-      SpaceTensor U;  /**< dU/dt */
-
-      /** @p A: R^T dF/dt. */
-      PolarRate(const SpaceStrain &strain, const double (&A)[3][3])
-      {
-        const SpaceTensor &e = strain.e;
-        const double w[3]
-            = { A[2][1] - A[1][2], A[0][2] - A[2][0], A[1][0] - A[0][1] };
-        strain.polar.solve_spin(w, spin);
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          double column[3], turned[3];
-          for (unsigned int r = 0; r < 3; ++r)
-            column[r] = e[symmetric_index[r][c]] + (r == c ? 1. : 0.);
-          cross(spin, column, turned);
-          for (unsigned int r = 0; r <= c; ++r)
-            U[symmetric_index[r][c]] = A[r][c] - turned[r];
-        }
-      }
-
-      static void cross(const double (&a)[3], const double (&b)[3],
-                        double (&result)[3])
-      {
-        for (unsigned int r = 0; r < 3; ++r)
-        {
-          const unsigned int p = (r + 1) % 3, q = (r + 2) % 3;
-          result[r] = a[p] * b[q] - a[q] * b[p];
-        }
-      }
-    };
-  } // namespace
-
   void BlockForces<3>::prepare(const BlockForcesData<3> &new_data,
                                const BlockForcesOptions &options)
   {
@@ -272,110 +234,12 @@ namespace quoin
     PlasticHistory &history = state.get<PlasticHistory>();
     for (unsigned int c = 0; c < data.cells.size(); ++c)
     {
-      if (!linearise(c, state.nodes.data(), history, cell, with_stiffness))
-        continue;
+      linearise_cell(data, c, state.nodes.data(), history, cell,
+                     with_stiffness);
       state.energy.plastic += cell.dissipated;
       take({ cell.nodes.data(), cell.n_nodes, cell.force.data(),
              cell.stiffness[0].data(), unsigned(cell.force.size()) });
     }
-  }
-
-  bool BlockForces<3>::linearise(const unsigned int cell,
-                                 const NodeRecord<3> *nodes,
-                                 PlasticHistory &history,
-                                 CellLinearisation &result,
-                                 const bool with_stiffness) const
-  {
-    if (data.law_of(cell) && !history.space_cells.empty())
-    {
-      linearise_plastic(data, cell, nodes, history, result, with_stiffness);
-      return true;
-    }
-    const CellMotion motion = cell_motion(data, nodes, cell);
-    const SpaceStrain strain(motion.H);
-    const auto &polar       = strain.polar;
-    const auto &R           = strain.R;
-    const double volume     = motion.geometry.det / 6.;
-    const SpaceStiffness &C = data.stiffness_of(cell);
-    double e[6], S0[6], T[3][3];
-    std::copy(strain.e.begin(), strain.e.end(), e);
-    const SpaceTensor initial = data.initial_stress_of(cell);
-    std::copy(initial.begin(), initial.end(), S0);
-    polar.turning_stress(S0, e, T);
-    double w[3], y[3]; // of the turning stress
-    polar.commutator(S0, e, w);
-    polar.solve_spin(w, y);
-    const SpaceTensor elastic = elastic_stress(C, strain.e);
-    for (unsigned int r = 0; r < 3; ++r)
-      for (unsigned int c = 0; c < 3; ++c)
-        T[r][c] += elastic[symmetric_index[r][c]];
-
-    double g[4][3]{};
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-      {
-        g[k + 1][i] = motion.geometry.cofactor[k][i] / motion.geometry.det;
-        g[0][i] -= g[k + 1][i];
-      }
-    // V (R T) grad N of all nodes.
-    const auto nodal = [&](const double(&T)[3][3], double *f)
-    {
-      for (unsigned int k = 0; k < 4; ++k)
-        for (unsigned int i = 0; i < 3; ++i)
-        {
-          f[3 * k + i] = 0.;
-          for (unsigned int r = 0; r < 3; ++r)
-            for (unsigned int c = 0; c < 3; ++c)
-              f[3 * k + i] += volume * R[i][r] * T[r][c] * g[k][c];
-        }
-    };
-    result.n_nodes    = 4;
-    result.dissipated = 0.;
-    std::copy(data.cells[cell].begin(), data.cells[cell].end(),
-              result.nodes.begin());
-    nodal(T, result.force.data());
-    for (double &f : result.force)
-      f = -f;
-    if (!with_stiffness)
-      return true;
-
-    for (unsigned int k = 0; k < 4; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-      {
-        double A[3][3], dU[6], dT[3][3];
-        for (unsigned int r = 0; r < 3; ++r)
-          for (unsigned int c = 0; c < 3; ++c)
-            A[r][c] = R[i][r] * g[k][c];
-        const PolarRate rate(strain, A);
-        std::copy(rate.U.begin(), rate.U.end(), dU);
-        const SpaceTensor dS = elastic_stress(C, rate.U);
-        // From (tr U I - U) y = w.
-        double dw[3], dy[3];
-        polar.commutator(S0, dU, dw);
-        for (unsigned int r = 0; r < 3; ++r)
-        {
-          dw[r] -= (dU[0] + dU[1] + dU[2]) * y[r];
-          for (unsigned int c = 0; c < 3; ++c)
-            dw[r] += dU[symmetric_index[r][c]] * y[c];
-        }
-        polar.solve_spin(dw, dy);
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          const double column[3] = { T[0][c], T[1][c], T[2][c] };
-          const double unit[3]
-              = { c == 0 ? 1. : 0., c == 1 ? 1. : 0., c == 2 ? 1. : 0. };
-          double turned[3], minus[3];
-          PolarRate::cross(rate.spin, column, turned);
-          PolarRate::cross(dy, unit, minus);
-          for (unsigned int r = 0; r < 3; ++r)
-            dT[r][c] = turned[r] + dS[symmetric_index[r][c]] - minus[r];
-        }
-        std::array<double, 12> column;
-        nodal(dT, column.data());
-        for (unsigned int q = 0; q < 12; ++q)
-          result.stiffness[q][3 * k + i] = column[q];
-      }
-    return true;
   }
 
   void BlockForces<3>::prepare(State<3> &state) const
@@ -402,5 +266,24 @@ namespace quoin
         add_viscous_forces(tile, state.nodes.data(), state.velocity.data(),
                            step.stiffness_damping, forces.viscous);
     }
+  }
+
+  double BlockForces<3>::update(const NodeRecord<3> *nodes,
+                                PlasticHistory &history) const
+  {
+    double dissipated = 0.;
+    for (const unsigned int k : plastic_cells)
+    {
+      const CellMotion motion = cell_motion(data, nodes, k);
+      const SpaceStrain strain
+          = elastic_strain(motion.H, history.space_cells[k].inverse_stretch);
+      SpacePlasticPoint point = space_plastic_point(history, k);
+      const double lost       = data.law_of(k)
+                              ->update(point, strain, data.initial_stress_of(k))
+                              .dissipated;
+      set_plastic_point(point, k, history);
+      dissipated += motion.geometry.det / 6. * lost;
+    }
+    return dissipated;
   }
 } // namespace quoin

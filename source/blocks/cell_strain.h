@@ -50,6 +50,41 @@ namespace quoin
   /** Strain of the elastic part of a deformation, (I + H) (I + Q). */
   SpaceStrain elastic_strain(const double (&H)[3][3], const double (&Q)[6]);
 
+  /** Rate of a polar decomposition F = R U. */
+  struct PolarRate
+  {
+    double spin[3]; /**< axial vector of R^T dR/dt */
+    SpaceTensor U;  /**< dU/dt */
+
+    /** @p A: R^T dF/dt. */
+    PolarRate(const SpaceStrain &strain, const double (&A)[3][3])
+    {
+      const SpaceTensor &e = strain.e;
+      const double w[3]
+          = { A[2][1] - A[1][2], A[0][2] - A[2][0], A[1][0] - A[0][1] };
+      strain.polar.solve_spin(w, spin);
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        double column[3], turned[3];
+        for (unsigned int r = 0; r < 3; ++r)
+          column[r] = e[symmetric_index[r][c]] + (r == c ? 1. : 0.);
+        cross(spin, column, turned);
+        for (unsigned int r = 0; r <= c; ++r)
+          U[symmetric_index[r][c]] = A[r][c] - turned[r];
+      }
+    }
+
+    static void cross(const double (&a)[3], const double (&b)[3],
+                      double (&result)[3])
+    {
+      for (unsigned int r = 0; r < 3; ++r)
+      {
+        const unsigned int p = (r + 1) % 3, q = (r + 2) % 3;
+        result[r] = a[p] * b[q] - a[q] * b[p];
+      }
+    }
+  };
+
   /** Adds the forces of a first Piola-Kirchhoff stress R T [Pa]. */
   void add_cell_forces(const BlockForcesData<3> &data, std::size_t cell,
                        const Tetrahedron<OneLane> &geometry,
@@ -61,13 +96,6 @@ namespace quoin
   double add_plastic_forces(const BlockForcesData<3> &data, std::size_t cell,
                             const NodeRecord<3> *nodes, PlasticHistory &history,
                             dealii::Tensor<1, 3> *force);
-
-  /** BlockForces<3>::linearise() of a cell with a yield law: the derivative is
-      that of its update, by central differences of the displacement gradient.
-   */
-  void linearise_plastic(const BlockForcesData<3> &data, std::size_t cell,
-                         const NodeRecord<3> *nodes, PlasticHistory &history,
-                         CellLinearisation &result, bool with_stiffness);
 } // namespace quoin
 
 #endif

@@ -113,20 +113,6 @@ namespace quoin
     unsigned int n_lanes = 0;
   };
 
-  /**
-   * A cell's nodal forces and minus their derivative by the displacements of
-   * its nodes: entry 2 i + d is node i, component d.
-   */
-  struct CellLinearisation
-  {
-    unsigned int n_nodes = 3;
-    std::array<unsigned int, 6> nodes;
-    std::array<double, 12> force;                     /**< [N] */
-    std::array<std::array<double, 12>, 12> stiffness; /**< [N/m] */
-    /** Energy dissipated by the update of internal variables [J]. */
-    double dissipated;
-  };
-
   struct NodeRange
   {
     std::size_t begin;
@@ -223,15 +209,6 @@ namespace quoin
     double add_forces(unsigned int tile, const NodeRecord<2> *nodes,
                       PlasticHistory &history,
                       dealii::Tensor<1, 2> *force) const;
-
-    /**
-     * As add_forces() for one cell, with the derivative consistent with the
-     * update of @p history if @p with_stiffness; otherwise the stiffness is not
-     * set. Does nothing and returns false for a cell without weight.
-     */
-    bool linearise(unsigned int cell, const NodeRecord<2> *nodes,
-                   PlasticHistory &history, CellLinearisation &result,
-                   bool with_stiffness = true) const;
 
     /** Updates @p history as add_forces() does and returns the dissipation [J].
      */

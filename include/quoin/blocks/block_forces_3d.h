@@ -141,13 +141,6 @@ namespace quoin
                             const dealii::Tensor<1, 3> *velocity, double beta,
                             dealii::Tensor<1, 3> *force) const;
 
-    /** A cell's forces and, if @p with_stiffness, minus their derivative; entry
-        3 i + d is node i, component d. Updates @p history, without which no
-        cell yields. Returns true. */
-    bool linearise(unsigned int cell, const NodeRecord<3> *nodes,
-                   PlasticHistory &history, CellLinearisation &result,
-                   bool with_stiffness = true) const;
-
     /** Updates @p history as add_forces() does and returns the dissipation [J].
      */
     double update(const NodeRecord<3> *nodes, PlasticHistory &history) const;

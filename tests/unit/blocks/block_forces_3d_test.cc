@@ -3,6 +3,7 @@
 
 #include "tetrahedron_blocks.h"
 
+#include <quoin/blocks/cell_tangent.h>
 #include <quoin/blocks/cell_states.h>
 
 #include <gtest/gtest.h>
@@ -433,7 +434,8 @@ TEST(BlockForces3, StiffnessIsTheDerivativeOfTheForces)
     for (unsigned int k = 0; k < blocks.cell_data().cells.size(); ++k)
     {
       CellLinearisation cell;
-      ASSERT_TRUE(blocks.linearise(k, mesh.nodes.data(), none, cell));
+      ASSERT_TRUE(
+          linearise_cell(blocks.cell_data(), k, mesh.nodes.data(), none, cell));
       ASSERT_EQ(cell.n_nodes, 4u);
       for (unsigned int i = 0; i < 12; ++i)
       {
@@ -621,7 +623,8 @@ TEST(BlockForces3d, StiffnessOfYieldingCellsIsTheDerivativeOfTheirForces)
     {
       PlasticHistory trial = history;
       CellLinearisation cell;
-      ASSERT_TRUE(blocks.linearise(k, mesh.nodes.data(), trial, cell));
+      ASSERT_TRUE(linearise_cell(blocks.cell_data(), k, mesh.nodes.data(),
+                                 trial, cell));
       dissipated += cell.dissipated;
       n_yielded += (trial.yielding[k] & 3) != 0;
       EXPECT_EQ(trial.yielding[k], end.yielding[k]);
@@ -641,7 +644,8 @@ TEST(BlockForces3d, StiffnessOfYieldingCellsIsTheDerivativeOfTheirForces)
           u     = before + (side == 0 ? -h : h);
           trial = history;
           CellLinearisation there;
-          blocks.linearise(k, mesh.nodes.data(), trial, there, false);
+          linearise_cell(blocks.cell_data(), k, mesh.nodes.data(), trial, there,
+                         false);
           ends[side] = there.force;
         }
         u = before;

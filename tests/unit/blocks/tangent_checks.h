@@ -6,6 +6,7 @@
 
 #include "random_blocks.h"
 
+#include <quoin/blocks/cell_tangent.h>
 #include <quoin/blocks/block_forces.h>
 
 #include <algorithm>
@@ -84,7 +85,7 @@ namespace quoin::tangent_test
     CellLinearisation cell;
     for (unsigned int c = 0; c < blocks.cell_data().cells.size(); ++c)
     {
-      if (!blocks.linearise(c, nodes.data(), history, cell))
+      if (!linearise_cell(blocks.cell_data(), c, nodes.data(), history, cell))
         continue;
       if (dissipated)
         *dissipated += cell.dissipated;

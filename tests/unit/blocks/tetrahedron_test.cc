@@ -3,6 +3,8 @@
 
 #include "tetrahedron_blocks.h"
 
+#include <quoin/blocks/cell_tangent.h>
+
 #include <gtest/gtest.h>
 
 using namespace quoin;
@@ -146,7 +148,7 @@ TEST(Tetrahedron, LargestFrequencyOfOneElement)
     {
       CellLinearisation cell;
       PlasticHistory none;
-      blocks.linearise(k, mesh.nodes.data(), none, cell);
+      linearise_cell(blocks.cell_data(), k, mesh.nodes.data(), none, cell);
       Eigen::Matrix<double, 12, 12> K;
       for (unsigned int i = 0; i < 12; ++i)
         for (unsigned int j = 0; j < 12; ++j)

@@ -5,6 +5,8 @@
 
 #include "tetrahedron_blocks.h"
 
+#include <quoin/blocks/cell_tangent.h>
+
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -331,7 +333,7 @@ TEST(TetrahedronWaves, StableStep)
   for (unsigned int k = 0; k < free.blocks.cell_data().cells.size(); ++k)
   {
     CellLinearisation cell;
-    free.blocks.linearise(k, mesh.nodes.data(), none, cell);
+    linearise_cell(free.blocks.cell_data(), k, mesh.nodes.data(), none, cell);
     for (unsigned int i = 0; i < 12; ++i)
       for (unsigned int j = 0; j < 12; ++j)
       {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// BlockForces<3> cell by cell.
-
 #include <quoin/blocks/cell_states.h>
 
 #include "cell_strain.h"
@@ -145,23 +143,6 @@ namespace quoin
                               elastic_strain_of(data, nodes, history, cell),
                               data.initial_stress_of(cell));
     return point;
-  }
-
-  double BlockForces<3>::update(const NodeRecord<3> *nodes,
-                                PlasticHistory &history) const
-  {
-    double dissipated = 0.;
-    for (const unsigned int k : plastic_cells)
-    {
-      const SpaceStrain strain = elastic_strain_of(data, nodes, history, k);
-      SpacePlasticPoint point  = space_plastic_point(history, k);
-      const double lost        = data.law_of(k)
-                              ->update(point, strain, data.initial_stress_of(k))
-                              .dissipated;
-      set_plastic_point(point, k, history);
-      dissipated += cell_motion(data, nodes, k).geometry.det / 6. * lost;
-    }
-    return dissipated;
   }
 
   double add_forces_by_cell(const BlockForces<3> &blocks,

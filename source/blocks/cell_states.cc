@@ -100,26 +100,6 @@ namespace quoin
     return point;
   }
 
-  double BlockForces<2>::update(const NodeRecord<2> *nodes,
-                                PlasticHistory &history) const
-  {
-    double dissipated = 0.;
-    if (!data.is_plastic())
-      return dissipated;
-    for (std::size_t k = 0; k < data.cells.size(); ++k)
-      if (data.law_of(k))
-      {
-        double area;
-        const auto gradient = cell_gradient(data, nodes, k, &area);
-        dissipated
-            += data.thickness_of(k) * area
-               * update_cell(data, k, elastic_strain(gradient, history, k).e,
-                             history)
-                     .dissipated;
-      }
-    return dissipated;
-  }
-
   double add_forces_by_cell(const BlockForces<2> &blocks,
                             const unsigned int tile, const NodeRecord<2> *nodes,
                             PlasticHistory &history,

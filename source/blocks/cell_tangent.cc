@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// Derivatives of BlockForces, for implicit solvers.
-
-#include <quoin/blocks/block_forces.h>
+#include <quoin/blocks/cell_tangent.h>
 #include <quoin/blocks/triangle_tangent.h>
 
 #include "cell_strain.h"
@@ -71,26 +69,9 @@ namespace quoin
     return point;
   }
 
-  void BlockForces<2>::linearise(State<2> &state, const bool with_stiffness,
-                                 const TakeElement<2> &take) const
-  {
-    CellLinearisation cell;
-    PlasticHistory &history = state.get<PlasticHistory>();
-    for (unsigned int c = 0; c < data.cells.size(); ++c)
-    {
-      if (!linearise(c, state.nodes.data(), history, cell, with_stiffness))
-        continue;
-      state.energy.plastic += cell.dissipated;
-      take({ cell.nodes.data(), cell.n_nodes, cell.force.data(),
-             cell.stiffness[0].data(), unsigned(cell.force.size()) });
-    }
-  }
-
-  bool BlockForces<2>::linearise(const unsigned int cell,
-                                 const NodeRecord<2> *nodes,
-                                 PlasticHistory &history,
-                                 CellLinearisation &result,
-                                 const bool with_stiffness) const
+  bool linearise_cell(const BlockForcesData<2> &data, const unsigned int cell,
+                      const NodeRecord<2> *nodes, PlasticHistory &history,
+                      CellLinearisation &result, const bool with_stiffness)
   {
     CellPoint point           = cell_point(data, nodes, cell);
     auto gradient             = point.displacement_gradient(nodes);
