@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/mesh/gmsh_text.h>
 #include <quoin/application/output_directory.h>
 #include <quoin/application/run.h>
 #include <quoin/base/parameter_file.h>
@@ -32,8 +33,11 @@ namespace quoin
                              parameters.dimension, parameters.cells);
       std::string section = made.name;
       section[0]          = std::toupper(section[0]);
-      return mesh_gmsh_geometry(made.geometry, "section " + section,
-                                communicator, parameters.cells);
+      if (parameters.dimension == MeshDimension::three)
+        section += " box";
+      return mesh_any_gmsh_geometry(made.geometry, "section " + section,
+                                    communicator, parameters.dimension,
+                                    parameters.cells);
     }
 
     /** The kind of problem that @p parameters describe. */

@@ -142,14 +142,14 @@ namespace quoin
       {
         const unsigned int a = loop[i], b = loop[(i + 1) % loop.size()];
         const int at_a = side(a, plane), at_b = side(b, plane);
-        has_below  = has_below || at_a < 0;
-        has_above  = has_above || at_a > 0;
-        n_changes  += at_a * at_b < 0;
+        has_below = has_below || at_a < 0;
+        has_above = has_above || at_a > 0;
+        n_changes += at_a * at_b < 0;
         n_in_plane += at_a == 0;
         if (at_a * at_b >= 0)
           continue;
-        const double da = plane.distance(points[a]);
-        const double db = plane.distance(points[b]);
+        const double da     = plane.distance(points[a]);
+        const double db     = plane.distance(points[b]);
         const double length = points[a].distance(points[b]);
         const double share  = da / (da - db);
         if (std::min(share, 1. - share) * length < shortest_edge)
@@ -179,9 +179,9 @@ namespace quoin
     }
     for (const auto &[a, b] : edges)
     {
-      const double da             = plane.distance(points[a]);
-      const double db             = plane.distance(points[b]);
-      const unsigned int vertex   = points.size();
+      const double da                 = plane.distance(points[a]);
+      const double db                 = plane.distance(points[b]);
+      const unsigned int vertex       = points.size();
       const std::set<unsigned int> at = faces_at.at({ a, b });
       points.push_back(points[a] + da / (da - db) * (points[b] - points[a]));
       for (const unsigned int f : at)
@@ -290,11 +290,10 @@ namespace quoin
     std::set<unsigned int> above, below;
     for (const unsigned int f : blocks[block])
     {
-      const auto &loop = all_faces[f].loop;
-      const bool is_above
-          = std::any_of(loop.begin(), loop.end(),
-                        [&](const unsigned int v)
-                        { return side(v, plane) > 0; });
+      const auto &loop    = all_faces[f].loop;
+      const bool is_above = std::any_of(loop.begin(), loop.end(),
+                                        [&](const unsigned int v)
+                                        { return side(v, plane) > 0; });
       (is_above ? above : below).insert(f);
     }
     const unsigned int new_block = blocks.size();

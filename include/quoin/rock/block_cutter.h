@@ -49,14 +49,14 @@ namespace quoin
     /** What came of the cut of one block. */
     enum Result
     {
-      missed,  /**< the plane does not pass through the block */
-      cut,     /**< there are two blocks, the last one is new */
+      missed, /**< the plane does not pass through the block */
+      cut,    /**< there are two blocks, the last one is new */
       refused /**< a part would be too small: the block stays whole */
     };
 
     /**
-     * A box from @p low to @p high [m] whose sides are the surfaces 0 to 5: x, y
-     * and z, first low, then high. Cuts that make an edge shorter than
+     * A box from @p low to @p high [m] whose sides are the surfaces 0 to 5: x,
+     * y and z, first low, then high. Cuts that make an edge shorter than
      * @p shortest_edge [m] or a block smaller than @p smallest_block [m^3] are
      * refused.
      */
@@ -104,7 +104,7 @@ namespace quoin
     double shortest_edge, smallest_block, tolerance;
     std::vector<dealii::Point<3>> points;
     std::vector<Face> all_faces;
-    std::vector<std::set<unsigned int>> blocks; /**< faces of each */
+    std::vector<std::set<unsigned int>> blocks;      /**< faces of each */
     std::map<Edge, std::set<unsigned int>> faces_at; /**< edge */
   };
 } // namespace quoin
