@@ -134,29 +134,32 @@ namespace quoin
   {
     for (const unsigned int f : blocks[block])
     {
-      const auto &loop        = all_faces[f].loop;
-      unsigned int n_changes  = 0;
-      unsigned int n_in_plane = 0;
+      const auto &loop = all_faces[f].loop;
+      std::vector<Point> in_plane;
       bool has_below = false, has_above = false;
       for (std::size_t i = 0; i < loop.size(); ++i)
       {
-        const unsigned int a = loop[i], b = loop[(i + 1) % loop.size()];
-        const int at_a = side(a, plane), at_b = side(b, plane);
-        has_below = has_below || at_a < 0;
-        has_above = has_above || at_a > 0;
-        n_changes += at_a * at_b < 0;
-        n_in_plane += at_a == 0;
+        const Point &a = points[loop[i]];
+        const Point &b = points[loop[(i + 1) % loop.size()]];
+        const int at_a = side(loop[i], plane);
+        const int at_b = side(loop[(i + 1) % loop.size()], plane);
+        has_below      = has_below || at_a < 0;
+        has_above      = has_above || at_a > 0;
+        if (at_a == 0)
+          in_plane.push_back(a);
         if (at_a * at_b >= 0)
           continue;
-        const double da     = plane.distance(points[a]);
-        const double db     = plane.distance(points[b]);
-        const double length = points[a].distance(points[b]);
-        const double share  = da / (da - db);
-        if (std::min(share, 1. - share) * length < shortest_edge)
+        const double da    = plane.distance(a);
+        const double share = da / (da - plane.distance(b));
+        if (std::min(share, 1. - share) * a.distance(b) < shortest_edge)
           return false;
+        in_plane.push_back(a + share * (b - a));
       }
-      // A face on both sides is left with two points of the plane, no more.
-      if (has_below && has_above && n_changes + n_in_plane != 2)
+      // A face on both sides is left with two points of the plane, no more,
+      // between which there is a new edge.
+      if (has_below && has_above
+          && (in_plane.size() != 2
+              || in_plane[0].distance(in_plane[1]) < shortest_edge))
         return false;
     }
     const auto [below, above] = volumes(block, plane);

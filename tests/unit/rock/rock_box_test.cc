@@ -136,13 +136,13 @@ TEST(RockBox, volumes_sum_up_and_faces_close_blocks)
         ASSERT_EQ(edges.count({ edge.second, edge.first }), 1u);
       }
     }
-    if (rock.shortest_edge > 0.)
-      for (const auto &face : box.blocks.faces())
-        for (std::size_t i = 0; i < face.loop.size(); ++i)
-          EXPECT_GE(
-              box.blocks.vertices()[face.loop[i]].distance(
-                  box.blocks.vertices()[face.loop[(i + 1) % face.loop.size()]]),
-              0.1 - 1e-12);
+    const auto &x = box.blocks.vertices();
+    for (const auto &face : box.blocks.faces())
+      for (std::size_t i = 0; i < face.loop.size(); ++i)
+      {
+        const unsigned int v = face.loop[(i + 1) % face.loop.size()];
+        EXPECT_GE(x[face.loop[i]].distance(x[v]), rock.shortest_edge - 1e-12);
+      }
   }
 }
 
