@@ -99,7 +99,8 @@ namespace quoin
       entries.list("Sides", rock.sides,
                    "Names of the sides of the box, each a physical surface: of "
                    "least and largest x, of least and largest y, of least and "
-                   "largest z. Sides may share a name.");
+                   "largest z. Sides may share a name; "
+                   "empty: left, right, front, back, bottom, top.");
       entries.text("Group", rock.group, "Physical volume of the blocks.");
       entries.integer("Random seed", rock.seed, 0,
                       "Seed of the random number generator of joints; another "
@@ -119,6 +120,8 @@ namespace quoin
                        "Longest edge of the elements of the rock mass [m]");
       if (const ParameterSection *section = entries.read_section())
       {
+        if (rock.sides.empty())
+          rock.sides = RockBoxParameters().sides;
         check_box(*section, rock);
         if (rock.shortest_edge == 0.)
           rock.shortest_edge = 0.01 * rock.element_size;
