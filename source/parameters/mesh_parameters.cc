@@ -206,6 +206,7 @@ namespace quoin
   void read_mesh(const ParameterSection &top, Parameters &parameters)
   {
     const bool generated = read_generated(top, parameters);
+    const bool has_box   = RockBoxParameters::read(top).is_there();
     const auto joints_of_layout
         = std::exchange(parameters.split.joints_along, {});
     const ParameterSection section(top, "Mesh");
@@ -217,9 +218,7 @@ namespace quoin
       parameters.split.joints_along = joints_of_layout;
     if (generated)
       check_dimension(section,
-                      RockBoxParameters::read(top).is_there()
-                          ? MeshDimension::three
-                          : MeshDimension::two,
+                      has_box ? MeshDimension::three : MeshDimension::two,
                       parameters.dimension);
     if (parameters.cells.kind == TriangleKind::quadratic
         && !parameters.is_implicit)
