@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/mesh/gmsh_text.h>
 #include <quoin/application/output_directory.h>
 #include <quoin/application/run.h>
 #include <quoin/base/parameter_file.h>
@@ -9,6 +8,7 @@
 #include <quoin/block_problem/block_problem.h>
 #include <quoin/boundary_problem/boundary_problem.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/mesh/gmsh_text.h>
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/json_file.h>

@@ -146,8 +146,9 @@ namespace quoin
                      "'Arch' or rock of section 'Rock', whose meshes are "
                      "plane: set 'from mesh'.");
       if (made == MeshDimension::three && wanted == MeshDimension::two)
-        section.fail("Dimension", "is 3 for rock of section 'Rock box', whose "
-                                  "mesh is of tetrahedra: set 'from mesh'.");
+        section.fail("Dimension",
+                     "must be 3 for rock of section 'Rock box', whose "
+                     "mesh is of tetrahedra: set 'from mesh'.");
       wanted = made;
     }
 
