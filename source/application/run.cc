@@ -8,6 +8,7 @@
 #include <quoin/block_problem/block_problem.h>
 #include <quoin/boundary_problem/boundary_problem.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/mesh/gmsh_text.h>
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/json_file.h>
@@ -32,8 +33,11 @@ namespace quoin
                              parameters.dimension, parameters.cells);
       std::string section = made.name;
       section[0]          = std::toupper(section[0]);
-      return mesh_gmsh_geometry(made.geometry, "section " + section,
-                                communicator, parameters.cells);
+      if (parameters.dimension == MeshDimension::three)
+        section += " box";
+      return mesh_any_gmsh_geometry(made.geometry, "section " + section,
+                                    communicator, parameters.dimension,
+                                    parameters.cells);
     }
 
     /** The kind of problem that @p parameters describe. */

@@ -5,6 +5,7 @@
 #include <quoin/mesh/crossed_triangles.h>
 #include <quoin/mesh/gmsh_process.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/mesh/gmsh_text.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -176,19 +177,29 @@ namespace quoin
         filename, communicator, static_cast<MeshDimension>(dim), cells));
   }
 
+  AnyMeshData mesh_any_gmsh_geometry(const std::string &geometry,
+                                     const std::string &maker,
+                                     const MPI_Comm &communicator,
+                                     const MeshDimension dimension,
+                                     const CellOptions &cells)
+  {
+    return read_on_first_rank(communicator,
+                              [&]()
+                              {
+                                return read(
+                                    "/dev/stdin", geometry, maker,
+                                    "Change the parameters of that section.",
+                                    dimension, cells);
+                              });
+  }
+
   MeshData<2> mesh_gmsh_geometry(const std::string &geometry,
                                  const std::string &maker,
                                  const MPI_Comm &communicator,
                                  const CellOptions &cells)
   {
-    return std::get<MeshData<2>>(read_on_first_rank(
-        communicator,
-        [&]()
-        {
-          return read("/dev/stdin", geometry, maker,
-                      "Change the parameters of that section.",
-                      MeshDimension::two, cells);
-        }));
+    return std::get<MeshData<2>>(mesh_any_gmsh_geometry(
+        geometry, maker, communicator, MeshDimension::two, cells));
   }
 
   void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file,

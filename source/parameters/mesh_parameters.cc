@@ -4,6 +4,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/layout/arch_layout.h>
+#include <quoin/rock/rock_box.h>
 #include <quoin/rock/rock_layout.h>
 #include <quoin/layout/wall_layout.h>
 #include <quoin/parameters/model_parameters.h>
@@ -41,6 +42,20 @@ namespace quoin
       parameters.split.joints_along = geometry.joint_curves;
     }
 
+    void lay(const RockBoxParameters &rock, Parameters &parameters)
+    {
+      const RockBox box           = cut_rock_box(rock);
+      const GmshGeometry geometry = rock_box_geometry(rock, box);
+      parameters.generated        = {
+               "rock", geometry.text, rock_box_report(rock, box),
+               rock_box_statistics(rock, box),
+               text_of("'Shortest edge' of section 'Rock box', ", rock.shortest_edge,
+                       " m now, leaves blocks whole that a joint would cut into "
+                              "small pieces: a larger one makes the time step longer")
+      };
+      parameters.split.joints_along = geometry.joint_curves;
+    }
+
     void lay(const ArchParameters &arch, Parameters &parameters)
     {
       const ArchLayout layout     = lay_arch(arch);
@@ -56,10 +71,11 @@ namespace quoin
       const WallParameters wall = WallParameters::read(top);
       const ArchParameters arch
           = ArchParameters::read(ParameterSection(top, "Arch"));
-      const RockParameters rock = RockParameters::read(top);
-      const bool has_arch       = arch.span > 0.;
-      const bool has_wall       = wall.bond != WallBond::none;
-      const bool has_rock       = !rock.outline.empty();
+      const RockParameters rock   = RockParameters::read(top);
+      const RockBoxParameters box = RockBoxParameters::read(top);
+      const bool has_arch         = arch.span > 0.;
+      const bool has_wall         = wall.bond != WallBond::none;
+      const bool has_rock         = !rock.outline.empty();
       if (has_wall && has_rock)
         ParameterSection(top, "Rock")
             .fail("Outline",
@@ -70,7 +86,13 @@ namespace quoin
             .fail("Span", "does not go with a wall of section 'Wall' or rock "
                           "of section 'Rock': set it to 0, or 'Wall/Bond = "
                           "none' and 'Rock/Outline' empty.");
-      if (!has_wall && !has_rock && !has_arch)
+      if (box.is_there() && (has_wall || has_rock || has_arch))
+        ParameterSection(top, "Rock box")
+            .fail("Highest corner",
+                  "does not go with a wall of section 'Wall', an arch of "
+                  "section 'Arch' or rock of section 'Rock': make it the same "
+                  "as 'Lowest corner', or take these out.");
+      if (!has_wall && !has_rock && !has_arch && !box.is_there())
         return false;
       if (const ParameterSection section(top, "Mesh");
           !section.text("File").empty())
@@ -86,6 +108,8 @@ namespace quoin
                  lay(wall, parameters);
                else if (has_arch)
                  lay(arch, parameters);
+               else if (box.is_there())
+                 lay(box, parameters);
                else
                  lay(rock, parameters);
              });
@@ -112,12 +136,29 @@ namespace quoin
         section.fail("File", "must end in .geo or .msh.");
     }
 
+    /** Makes @p wanted the dimension of the geometry that was @p made. */
+    void check_dimension(const ParameterSection &section,
+                         const MeshDimension made, MeshDimension &wanted)
+    {
+      if (made == MeshDimension::two && wanted == MeshDimension::three)
+        section.fail("Dimension",
+                     "is 2 for a wall of section 'Wall', an arch of section "
+                     "'Arch' or rock of section 'Rock', whose meshes are "
+                     "plane: set 'from mesh'.");
+      if (made == MeshDimension::three && wanted == MeshDimension::two)
+        section.fail("Dimension",
+                     "must be 3 for rock of section 'Rock box', whose "
+                     "mesh is of tetrahedra: set 'from mesh'.");
+      wanted = made;
+    }
+
     void enter_mesh(ParameterEntries &entries, Parameters &parameters)
     {
       entries.text("File", parameters.mesh_file,
                    "gmsh geometry (.geo) or mesh (.msh) with coordinates in "
                    "[m], given relative to the folder of this file; empty if "
-                   "section 'Wall', 'Arch' or 'Rock' generates the geometry.");
+                   "section 'Wall', 'Arch', 'Rock' or 'Rock box' generates the "
+                   "geometry.");
       entries.choice("Dimension", parameters.dimension,
                      { { "from mesh", MeshDimension::from_mesh },
                        { "2", MeshDimension::two },
@@ -166,6 +207,7 @@ namespace quoin
   void read_mesh(const ParameterSection &top, Parameters &parameters)
   {
     const bool generated = read_generated(top, parameters);
+    const bool has_box   = RockBoxParameters::read(top).is_there();
     const auto joints_of_layout
         = std::exchange(parameters.split.joints_along, {});
     const ParameterSection section(top, "Mesh");
@@ -175,11 +217,10 @@ namespace quoin
       check_mesh_file(section, parameters);
     else if (parameters.split.joints_along.empty())
       parameters.split.joints_along = joints_of_layout;
-    if (generated && parameters.dimension == MeshDimension::three)
-      section.fail("Dimension",
-                   "is 2 for a wall of section 'Wall', an arch of section "
-                   "'Arch' or rock of section 'Rock', whose meshes are plane: "
-                   "set 'from mesh'.");
+    if (generated)
+      check_dimension(section,
+                      has_box ? MeshDimension::three : MeshDimension::two,
+                      parameters.dimension);
     if (parameters.cells.kind == TriangleKind::quadratic
         && !parameters.is_implicit)
       section.fail("Triangles",

@@ -5,6 +5,7 @@
 #include <quoin/base/parameter_entries.h>
 #include <quoin/base/parameter_file.h>
 #include <quoin/layout/arch_parameters.h>
+#include <quoin/rock/rock_box.h>
 #include <quoin/rock/rock_parameters.h>
 #include <quoin/layout/wall_parameters.h>
 #include <quoin/parameters/model_parameters.h>
@@ -25,6 +26,7 @@ namespace quoin
         = { { "Wall storeys", WallStorey::declare },
             { "Rock regions", RockRegion::declare },
             { "Rock joints", RockJoints::declare },
+            { "Rock joint sets", SpaceJointSet::declare },
             { "Materials", MaterialParameters::declare },
             { "Joints", JointSetParameters::declare },
             { "Reinforcement", CableParameters::declare },
@@ -118,6 +120,7 @@ namespace quoin
             { "Wall", WallParameters::declare },
             { "Arch", ArchParameters::declare },
             { "Rock", RockParameters::declare },
+            { "Rock box", RockBoxParameters::declare },
             { "Contact", ContactParameters::declare },
             { "Water", WaterParameters::declare },
             { "Boundary elements", BoundaryElementParameters::declare },
