@@ -8,7 +8,6 @@
 #include <quoin/block_problem/block_problem.h>
 #include <quoin/boundary_problem/boundary_problem.h>
 #include <quoin/mesh/gmsh_reader.h>
-#include <quoin/mesh/gmsh_text.h>
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/json_file.h>

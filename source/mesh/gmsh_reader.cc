@@ -5,7 +5,6 @@
 #include <quoin/mesh/crossed_triangles.h>
 #include <quoin/mesh/gmsh_process.h>
 #include <quoin/mesh/gmsh_reader.h>
-#include <quoin/mesh/gmsh_text.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -102,6 +102,16 @@ namespace quoin
                             const CellOptions &cells = {});
 
   /**
+   * read_any_gmsh() with the text @p geometry of a .geo file. @p maker: what
+   * made it, for messages.
+   */
+  AnyMeshData mesh_any_gmsh_geometry(const std::string &geometry,
+                                     const std::string &maker,
+                                     const MPI_Comm &communicator,
+                                     MeshDimension dimension,
+                                     const CellOptions &cells = {});
+
+  /**
    * read_gmsh() with the text @p geometry of a .geo file. @p maker: what made
    * it, for messages.
    */

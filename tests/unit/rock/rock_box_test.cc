@@ -65,7 +65,7 @@ namespace
   }
 } // namespace
 
-TEST(RockBox, orthogonal_sets_make_cubes)
+TEST(RockBox, OrthogonalSetsMakeCubes)
 {
   const RockBoxParameters rock = three_orthogonal_sets();
   const RockBox box            = cut_rock_box(rock);
@@ -78,7 +78,7 @@ TEST(RockBox, orthogonal_sets_make_cubes)
   EXPECT_NEAR(box.joint_area(2), 2. * 6. * 4., 1e-10);
 }
 
-TEST(RockBox, area_per_volume_is_the_inverse_of_spacing)
+TEST(RockBox, AreaPerVolumeIsTheInverseOfSpacing)
 {
   // Planes in the middle of spacings: the box holds whole numbers of them.
   RockBoxParameters rock = box_of(SpacePoint(6, 4, 3));
@@ -94,7 +94,7 @@ TEST(RockBox, area_per_volume_is_the_inverse_of_spacing)
       12u);
 }
 
-TEST(RockBox, scanline_at_an_angle_meets_fewer_joints)
+TEST(RockBox, ScanlineAtAnAngleMeetsFewerJoints)
 {
   RockBoxParameters rock = box_of(SpacePoint(100, 100, 1));
   rock.sets              = { space_set("east", 90, 90, "0.5") };
@@ -105,7 +105,7 @@ TEST(RockBox, scanline_at_an_angle_meets_fewer_joints)
             static_cast<unsigned int>(100 * 0.6 / 0.5));
 }
 
-TEST(RockBox, volumes_sum_up_and_faces_close_blocks)
+TEST(RockBox, VolumesSumUpAndFacesCloseBlocks)
 {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
   {
@@ -146,7 +146,7 @@ TEST(RockBox, volumes_sum_up_and_faces_close_blocks)
   }
 }
 
-TEST(RockBox, fisher_scatter_has_its_mean_and_resultant)
+TEST(RockBox, FisherScatterHasItsMeanAndResultant)
 {
   const double kappa = 20.;
   const auto mean    = plane_normal(40, 130);
@@ -163,7 +163,7 @@ TEST(RockBox, fisher_scatter_has_its_mean_and_resultant)
   EXPECT_LT(across.norm() / n, 5. / std::sqrt(kappa * n));
 }
 
-TEST(RockBox, persistence_is_the_share_of_joint_area)
+TEST(RockBox, PersistenceIsTheShareOfJointArea)
 {
   double made = 0.;
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
@@ -179,7 +179,7 @@ TEST(RockBox, persistence_is_the_share_of_joint_area)
   EXPECT_NEAR(made, 190., 4. * std::sqrt(380. * 0.25));
 }
 
-TEST(RockBox, two_planes_meet_in_the_line_of_the_wedge)
+TEST(RockBox, TwoPlanesMeetInTheLineOfTheWedge)
 {
   // Line of intersection of 40/130 and 60/220, at right angles in direction:
   // tan(plunge) = 1 / sqrt(cot(40)^2 + cot(60)^2).
@@ -209,7 +209,7 @@ TEST(RockBox, two_planes_meet_in_the_line_of_the_wedge)
   EXPECT_NEAR(found, plunge, 1e-10);
 }
 
-TEST(RockBox, seed_makes_it_reproducible)
+TEST(RockBox, SeedMakesItReproducible)
 {
   RockBoxParameters rock = scattered_sets();
   const std::string text = rock_box_geometry(rock, cut_rock_box(rock)).text;
@@ -218,7 +218,7 @@ TEST(RockBox, seed_makes_it_reproducible)
   EXPECT_NE(rock_box_geometry(rock, cut_rock_box(rock)).text, text);
 }
 
-TEST(RockBox, meshes_into_blocks_with_the_joints_of_its_faces)
+TEST(RockBox, MeshesIntoBlocksWithTheJointsOfItsFaces)
 {
   for (RockBoxParameters rock : { three_orthogonal_sets(), scattered_sets() })
   {
@@ -246,7 +246,7 @@ TEST(RockBox, meshes_into_blocks_with_the_joints_of_its_faces)
   }
 }
 
-TEST(RockBox, refuses_too_many_blocks_and_none)
+TEST(RockBox, RefusesTooManyBlocksAndNone)
 {
   RockBoxParameters rock = three_orthogonal_sets();
   rock.most_blocks       = 50;
