@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/mesh/gmsh_reader.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/mesh/block_splitter.h>
-#include <quoin/mesh/gmsh_text.h>
 #include <quoin/rock/rock_box.h>
 
 #include <gtest/gtest.h>
