@@ -11,7 +11,7 @@
 namespace quoin
 {
   /** Opening and slip of a point [m] and their rates [m/s]. */
-  struct JointMotion
+  struct PointMotion
   {
     std::array<double, 2> gap, rate;
   };
@@ -34,7 +34,7 @@ namespace quoin
         continue;
       const dealii::Tensor<1, 2> v
           = velocity[segment.upper[k]] - velocity[segment.lower[k]];
-      JointMotion motion;
+      PointMotion motion;
       motion.gap                  = joint_gap(segment, local, nodes, k);
       const auto &[opening, slip] = motion.gap;
       motion.rate                 = { { v * local.normal - slip * turn,

@@ -410,7 +410,7 @@ namespace quoin
               add_rate_forces(
                   all_segments[i], nodes, velocity,
                   [&](const unsigned int k) { return bears(2 * i + k); },
-                  [&](const unsigned int k, const JointMotion &motion)
+                  [&](const unsigned int k, const PointMotion &motion)
                   {
                     const unsigned int p = 2 * i + k;
                     return dashpot_tractions(
