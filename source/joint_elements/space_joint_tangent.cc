@@ -194,6 +194,17 @@ namespace quoin
       double inelastic = 0.;                           /**< [m^3] */
       std::array<double, n_dofs> inelastic_gradient{}; /**< [m^2] */
 
+      /** Sets the forces, and adds their derivative at constant tractions. */
+      void add_forces(const std::array<Active, n_dofs> &forces)
+      {
+        for (unsigned int i = 0; i < n_dofs; ++i)
+        {
+          force[i] = forces[i].val();
+          for (unsigned int j = 0; j < n_dofs; ++j)
+            stiffness[n_dofs * i + j] -= forces[i].fastAccessDx(j);
+        }
+      }
+
       /** Adds what the tractions of a point change by with its gap. */
       void add_point(const JointResponse<3> &point,
                      const std::array<Active, 3> &gap, const double area)
@@ -220,6 +231,35 @@ namespace quoin
         }
       }
     };
+
+    /** The same forces alone: those of add_face_forces() with the force
+        f(k, frame, gap) of point k on the lower side. */
+    template <typename Force>
+    std::array<double, n_dofs> face_forces(const SpaceJointFace &face,
+                                           const NodeRecord<3> *nodes,
+                                           const Force &f)
+    {
+      SpaceJointFace own = face; // with nodes of its own
+      std::array<NodeRecord<3>, 6> records;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        records[k]     = nodes[face.lower[k]];
+        records[3 + k] = nodes[face.upper[k]];
+        own.lower[k]   = k;
+        own.upper[k]   = 3 + k;
+      }
+      const SpaceJointFrame frame = joint_frame(own, records.data());
+      std::array<Vector, 6> forces;
+      add_face_forces(
+          own, frame, records.data(),
+          [&](const unsigned int k, const Vector &gap)
+          { return f(k, frame, gap); },
+          forces.data());
+      std::array<double, n_dofs> result;
+      for (unsigned int i = 0; i < n_dofs; ++i)
+        result[i] = forces[i / 3][i % 3];
+      return result;
+    }
   } // namespace
 
   void SpaceJoints::linearise(State<3> &state, const bool with_stiffness,
@@ -230,45 +270,62 @@ namespace quoin
     for (unsigned int i = 0; i < all_faces.size(); ++i)
     {
       const SpaceJointFace &face = all_faces[i];
+      std::array<unsigned int, 6> nodes;
+      std::copy(face.lower.begin(), face.lower.end(), nodes.begin());
+      std::copy(face.upper.begin(), face.upper.end(), nodes.begin() + 3);
       FaceLinearisation element;
-      if (!history.detached[i])
+      // Updates point k and returns its derivatives.
+      const auto update = [&](const unsigned int k, const SpaceJointGap &gap)
+      {
+        const unsigned int p = 3 * i + k;
+        Slip<3> slip;
+        slip[0] = gap[1];
+        slip[1] = gap[2];
+        JointResponse<3> point;
+        visit_law(
+            [&](const auto &law)
+            {
+              point = respond<3>(
+                  law, gap[0], slip, breaking && breaking->points[p],
+                  face.area * face.share, history, p, state.energy);
+            },
+            all_laws[face.set]);
+        element.inelastic += face.area * point.growth();
+        return point;
+      };
+      const bool acts = !history.detached[i];
+      if (acts && with_stiffness)
       {
         const ActiveFace active(face, state.nodes.data());
         std::array<std::array<double, 3>, 3> tractions;
         for (unsigned int k = 0; k < 3; ++k)
         {
+          const auto gap = active.local_gap(k);
+          element.add_point(
+              update(k, { { gap[0].val(), gap[1].val(), gap[2].val() } }), gap,
+              face.area);
           const unsigned int p = 3 * i + k;
-          const auto gap       = active.local_gap(k);
-          Slip<3> slip;
-          for (unsigned int a = 0; a < 2; ++a)
-            slip[a] = gap[1 + a].val();
-          JointResponse<3> point;
-          visit_law(
-              [&](const auto &law)
-              {
-                point = respond<3>(
-                    law, gap[0].val(), slip, breaking && breaking->points[p],
-                    face.area * face.share, history, p, state.energy);
-              },
-              all_laws[face.set]);
           tractions[k]
               = { { history.normal_traction[p], history.shear_traction[2 * p],
                     history.shear_traction[2 * p + 1] } };
-          element.inelastic += face.area * point.growth();
-          if (with_stiffness)
-            element.add_point(point, gap, face.area);
         }
-        const auto forces = active.forces(tractions, face.area);
-        for (unsigned int r = 0; r < n_dofs; ++r)
-        {
-          element.force[r] = forces[r].val();
-          for (unsigned int j = 0; with_stiffness && j < n_dofs; ++j)
-            element.stiffness[n_dofs * r + j] -= forces[r].fastAccessDx(j);
-        }
+        element.add_forces(active.forces(tractions, face.area));
       }
-      std::array<unsigned int, 6> nodes;
-      std::copy(face.lower.begin(), face.lower.end(), nodes.begin());
-      std::copy(face.upper.begin(), face.upper.end(), nodes.begin() + 3);
+      else if (acts)
+        element.force = face_forces(
+            face, state.nodes.data(),
+            [&](const unsigned int k, const SpaceJointFrame &frame,
+                const Vector &gap)
+            {
+              update(k, components(frame, gap));
+              const unsigned int p = 3 * i + k;
+              Slip<3> shear;
+              shear[0] = history.shear_traction[2 * p];
+              shear[1] = history.shear_traction[2 * p + 1];
+              return face.area
+                     * traction_vector(frame, history.normal_traction[p],
+                                       shear);
+            });
       take({ nodes.data(), 6, element.force.data(), element.stiffness.data(),
              n_dofs, face.share, element.inelastic,
              element.inelastic_gradient.data(), face.set, 3. * face.area });

@@ -18,8 +18,9 @@ TABLE = """kind,name,dip [deg],dip direction [deg],P32 asked [1/m],P32 made [1/m
 set,bedding,10,90,0.5,0.48,
 plane,bedding,20,90,,,
 plane,bedding,20,270,,,
-set,cross,90,0,1,1,
-plane,cross,90,0,,,
+set,cross,85,0,1,1,
+plane,cross,80,0,,,
+plane,cross,90,180,,,
 block,1,,,,,2.5
 """
 
@@ -74,9 +75,13 @@ class Files(unittest.TestCase):
             with open(os.path.join(folder, "rock_statistics.csv"), "w") as file:
                 file.write(TABLE)
             sets = stereonet.read_sets(folder)
-            self.assertEqual([len(poles) for _, poles in sets.values()], [2, 1])
+            self.assertEqual([len(poles) for _, poles in sets.values()], [2, 2])
             dip, _, _ = stereonet.mean_plane(sets["bedding"][1])
             self.assertAlmostEqual(dip, 0)
+            # 80 and 90 degrees, of which the second dips the other way
+            dip, direction, _ = stereonet.mean_plane(sets["cross"][1])
+            self.assertAlmostEqual(dip, 85)
+            self.assertAlmostEqual(np.cos(np.radians(direction)), 1)
             out = os.path.join(folder, "net.png")
             run = self.run_script(folder, "--out", out)
             self.assertEqual(run.returncode, 0, run.stderr)

@@ -81,6 +81,7 @@ namespace quoin
         std::vector<NodeStiffness<2>> &stiffness) const override;
     void add_damping_bound(const std::vector<double> &masses, double impedance,
                            DampingBound &bound) const override;
+
     const std::vector<JointSegment> &segments() const
     {
       return all_segments;

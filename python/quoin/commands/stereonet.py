@@ -50,7 +50,7 @@ def mean_plane(poles):
     without scatter."""
     total = poles.sum(axis=0)
     size = float(np.linalg.norm(total))
-    down = total / size
+    down = total / size * (-1 if total[2] > 0 else 1)
     dip = float(np.degrees(np.arccos(min(1.0, -down[2]))))
     direction = float(np.degrees(np.arctan2(-down[0], -down[1]))) % 360
     n = len(poles)
@@ -59,17 +59,26 @@ def mean_plane(poles):
 
 
 def read_sets(folder):
-    """{name: (row of the set, poles of its planes)}."""
+    """{name: (row of the set, poles of its planes)}, on the side of the pole
+    of the mean plane."""
     path = os.path.join(folder, "rock_statistics.csv")
     with open(path, newline="") as stream:
         rows = list(csv.DictReader(stream))
     if not rows or "P32 made [1/m]" not in rows[0]:
         raise ValueError(f"{path} is not of a section 'Rock box'")
-    return {row["name"]: (row, pole(*(
-        np.array([float(plane[key]) for plane in rows
-                  if plane["kind"] == "plane" and plane["name"] == row["name"]])
-        for key in ("dip [deg]", "dip direction [deg]"))))
-        for row in rows if row["kind"] == "set"}
+    sets = {}
+    for row in rows:
+        if row["kind"] == "set":
+            asked, poles = (
+                pole(*(np.array([float(one[key]) for one in some])
+                       for key in ("dip [deg]", "dip direction [deg]")))
+                for some in ([row], [plane for plane in rows
+                                     if plane["kind"] == "plane"
+                                     and plane["name"] == row["name"]]))
+            # of steep planes some dip the other way: ends of one axis
+            poles[poles @ asked[0] < 0] *= -1
+            sets[row["name"]] = row, poles
+    return sets
 
 
 def draw(sets, path):

@@ -32,13 +32,14 @@ namespace
     }
   };
 
-  Sums linearised(const Stack &stack, State<3> state, State<3> *end = nullptr)
+  Sums linearised(const Stack &stack, State<3> state, State<3> *end = nullptr,
+                  const bool with_stiffness = true)
   {
     const unsigned int n = 3 * state.nodes.size();
     Sums sums(n);
     state.add<BreakingJoints<3>>().points.assign(stack.joints.n_points(), 1);
     stack.joints.linearise(
-        state, true,
+        state, with_stiffness,
         [&](const ElementLinearisation<3> &element)
         {
           const auto dof = [&](const unsigned int i)
@@ -121,7 +122,8 @@ TEST(SpaceJointTangent, ForcesAreThoseOfExplicitSteps)
     {
       stack.shake(2e-4, step);
       State<3> end;
-      const Sums sums = linearised(stack, stack.state, &end);
+      const bool with_stiffness = step % 2 == 0;
+      const Sums sums = linearised(stack, stack.state, &end, with_stiffness);
       stack.energy    = EnergyAccounts();
       stack.update();
       double scale = 0., error = 0.;
