@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/packed_vectors.h>
-#include <quoin/base/eigen_core.h>
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/operators/archive.h>
@@ -16,6 +16,8 @@ namespace quoin
   namespace
   {
     using Vector = dealii::Tensor<1, 2>;
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
+                                 Eigen::RowMajor>;
 
     /** @p a turned by a right angle, anticlockwise. */
     Vector turned(const Vector &a)
@@ -219,12 +221,10 @@ namespace quoin
       terms[i]     = { 2 * near.places[i], -near.weights[i] };
       terms[3 + i] = { 2 * far.places[i], far.weights[i] };
     }
+    Eigen::Map<Matrix> stiffness(work.stiffness.data(), n, n);
     for (const auto &[row, v] : terms)
       for (const auto &[column, w] : terms)
-        for (const unsigned int d : { 0, 1 })
-          for (const unsigned int c : { 0, 1 })
-            work.stiffness[(row + d) * n + column + c]
-                += k * v * w * axis[d] * axis[c];
+        stiffness.block<2, 2>(row, column) += dyad(k * v * w * axis, axis);
   }
 
   BarDissipation Reinforcement::update_bar(const Bar &bar,
@@ -262,19 +262,17 @@ namespace quoin
                      state.force[e] * work.axis[e]);
     if (with_stiffness)
     {
-      using Matrix    = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
-                                   Eigen::RowMajor>;
       Matrix gradient = Matrix::Zero(m, n);
       for (unsigned int e = 0; e < m; ++e)
+      {
+        const BarHost &near = bar.hosts[e], &far = bar.hosts[e + 1];
+        auto row = gradient.row(e);
         for (unsigned int k = 0; k < 3; ++k)
-          for (const unsigned int d : { 0, 1 })
-          {
-            const BarHost &near = bar.hosts[e], &far = bar.hosts[e + 1];
-            gradient(e, 2 * near.places[k] + d)
-                -= near.weights[k] * work.axis[e][d];
-            gradient(e, 2 * far.places[k] + d)
-                += far.weights[k] * work.axis[e][d];
-          }
+        {
+          add_to_vector(row, near.places[k], -near.weights[k] * work.axis[e]);
+          add_to_vector(row, far.places[k], far.weights[k] * work.axis[e]);
+        }
+      }
       Eigen::Map<Matrix>(work.stiffness.data(), n, n).noalias()
           += gradient.transpose()
              * (Eigen::Map<const Matrix>(work.tangent.data(), m, m) * gradient);
