@@ -28,12 +28,12 @@ namespace quoin
     Vector relative(const BarHost &near, const BarHost &far,
                     const NodeRecord<2> *nodes)
     {
-      return displacement(far, nodes) - displacement(near, nodes);
+      return displacement_of(far, nodes) - displacement_of(near, nodes);
     }
 
     /** Takes a bar out of blocks that are absent: all of it where its far end
         is. */
-    void lose_absent(const Bar &bar, const State<2> &state, BarState &now)
+    void lose_absent(const PlacedBar &bar, const State<2> &state, BarState &now)
     {
       const std::size_t last = bar.hosts.size() - 1;
       const bool is_gone     = state.is_absent(bar.hosts[last].block);
@@ -111,7 +111,7 @@ namespace quoin
     auto &states = state.get<ReinforcementState>().bars;
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
-      const Bar &bar         = bars[b];
+      const PlacedBar &bar   = bars[b];
       BarState &now          = states[b];
       const auto &given      = cables[bar.cable];
       const std::size_t last = bar.hosts.size() - 1;
@@ -136,8 +136,8 @@ namespace quoin
       update_pressure(state);
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
-      const Bar &bar    = bars[b];
-      const auto &given = cables[bar.cable];
+      const PlacedBar &bar = bars[b];
+      const auto &given    = cables[bar.cable];
       if (!states[b].installed || given.pretension == 0.
           || !(given.stage.empty() ? first : given.stage == name)
           || states[b].plate_offset != 0.)
@@ -210,7 +210,7 @@ namespace quoin
     }
   }
 
-  void Reinforcement::add_spring(const Bar &bar, const BarHost &near,
+  void Reinforcement::add_spring(const PlacedBar &bar, const BarHost &near,
                                  const BarHost &far, const Vector &axis,
                                  const double k) const
   {
@@ -227,7 +227,7 @@ namespace quoin
         stiffness.block<2, 2>(row, column) += dyad(k * v * w * axis, axis);
   }
 
-  BarDissipation Reinforcement::update_bar(const Bar &bar,
+  BarDissipation Reinforcement::update_bar(const PlacedBar &bar,
                                            const NodeRecord<2> *nodes,
                                            BarState &state,
                                            const bool is_static,
@@ -284,8 +284,9 @@ namespace quoin
     return lost;
   }
 
-  void Reinforcement::add_dowels(const Bar &bar, const NodeRecord<2> *nodes,
-                                 BarState &state, const bool with_stiffness,
+  void Reinforcement::add_dowels(const PlacedBar &bar,
+                                 const NodeRecord<2> *nodes, BarState &state,
+                                 const bool with_stiffness,
                                  BarDissipation &lost) const
   {
     const BarLaw &law = bar.law;
@@ -417,7 +418,7 @@ namespace quoin
           sum[2] += s * axis[0] * axis[1];
         }
     };
-    for (const Bar &bar : bars)
+    for (const PlacedBar &bar : bars)
     {
       const BarLaw &law = bar.law;
       const Vector &t = bar.direction, across = turned(t);
