@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/packed_vectors.h>
-#include <quoin/base/eigen_vectors.h>
+#include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/operators/archive.h>
@@ -15,9 +15,8 @@ namespace quoin
 {
   namespace
   {
-    using Vector = dealii::Tensor<1, 2>;
-    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
-                                 Eigen::RowMajor>;
+    constexpr unsigned int dim = 2;
+    using Vector               = dealii::Tensor<1, dim>;
 
     /** @p a turned by a right angle, anticlockwise. */
     Vector turned(const Vector &a)
@@ -221,10 +220,12 @@ namespace quoin
       terms[i]     = { 2 * near.places[i], -near.weights[i] };
       terms[3 + i] = { 2 * far.places[i], far.weights[i] };
     }
-    Eigen::Map<Matrix> stiffness(work.stiffness.data(), n, n);
     for (const auto &[row, v] : terms)
       for (const auto &[column, w] : terms)
-        stiffness.block<2, 2>(row, column) += dyad(k * v * w * axis, axis);
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int c = 0; c < dim; ++c)
+            work.stiffness[(row + d) * n + column + c]
+                += k * v * w * axis[d] * axis[c];
   }
 
   BarDissipation Reinforcement::update_bar(const PlacedBar &bar,
@@ -262,6 +263,8 @@ namespace quoin
                      state.force[e] * work.axis[e]);
     if (with_stiffness)
     {
+      using Matrix    = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
+                                   Eigen::RowMajor>;
       Matrix gradient = Matrix::Zero(m, n);
       for (unsigned int e = 0; e < m; ++e)
       {
