@@ -45,7 +45,8 @@ namespace quoin
       const State<2> &state, const NodeRatio &,
       std::vector<NodeStiffness<2>> &stiffness) const
   {
-    const auto *plastic = state.find<PlasticHistory>();
+    constexpr unsigned int dim = 2;
+    const auto *plastic        = state.find<PlasticHistory>();
     for (unsigned int c = 0; c < data.cells.size(); ++c)
     {
       const auto &[i, j, k] = data.cells[c];
@@ -57,7 +58,7 @@ namespace quoin
           = largest_eigenvalue_squared_frequency(cell, data.stiffness_of(c), 1.)
             * cell.area() * data.thickness_of(c) / 3.;
       for (const unsigned int node : data.cells[c])
-        for (const unsigned int d : { 0, 1 })
+        for (unsigned int d = 0; d < dim; ++d)
           stiffness[node][d] += share;
     }
   }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/none.h>
+#include <quoin/base/packed_vectors.h>
 #include <quoin/joint_elements/pair_dashpots.h>
 
 #include <deal.II/base/mpi.h>
@@ -80,7 +81,7 @@ namespace quoin
   void PairDashpots::clear()
   {
     for (Pair &pair : pairs)
-      pair.springs = {};
+      pair.springs.clear();
   }
 
   void PairDashpots::add_springs(const unsigned int item, const double share,
@@ -98,29 +99,26 @@ namespace quoin
     if (divided_pairs.empty())
       return;
     std::vector<double> springs(2 * divided_pairs.size(), 0.);
-    const auto for_each = [&](const auto &use)
-    {
-      for (unsigned int i = 0; i < divided_pairs.size(); ++i)
-        if (divided_pairs[i] != none)
-          for (const unsigned int d : { 0, 1 })
-            use(springs[2 * i + d], pairs[divided_pairs[i]].springs[d]);
-    };
-    for_each([](double &all, const double own) { all = own; });
+    for (unsigned int i = 0; i < divided_pairs.size(); ++i)
+      if (divided_pairs[i] != none)
+        set_vector(springs, i, pairs[divided_pairs[i]].springs);
     MPI_Allreduce(MPI_IN_PLACE, springs.data(), springs.size(), MPI_DOUBLE,
                   MPI_SUM, blocks.communicator);
-    for_each([](const double all, double &own) { own = all; });
+    for (unsigned int i = 0; i < divided_pairs.size(); ++i)
+      if (divided_pairs[i] != none)
+        pairs[divided_pairs[i]].springs = vector_at(springs, i);
   }
 
   std::array<double, 2>
   PairDashpots::times(const unsigned int item, const JointDamping &damping,
                       const std::array<double, 2> &stiffness) const
   {
-    const Pair &pair   = pairs[item_pairs[item]];
-    const double xi[2] = { damping.normal, damping.shear };
-    std::array<double, 2> result{};
-    for (const unsigned int d : { 0, 1 })
-      result[d] = std::min(2. * xi[d] * std::sqrt(pair.mass / pair.springs[d]),
-                           item_impedance[item][d] / stiffness[d]);
-    return result;
+    const Pair &pair = pairs[item_pairs[item]];
+    const auto time  = [&](const unsigned int d, const double xi)
+    {
+      return std::min(2. * xi * std::sqrt(pair.mass / pair.springs[d]),
+                      item_impedance[item][d] / stiffness[d]);
+    };
+    return { { time(0, damping.normal), time(1, damping.shear) } };
   }
 } // namespace quoin

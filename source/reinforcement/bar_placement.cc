@@ -132,8 +132,8 @@ namespace quoin
   } // namespace
 
   /** Displacement of a point of a cell [m]. */
-  dealii::Tensor<1, 2> displacement(const BarHost &host,
-                                    const NodeRecord<2> *nodes)
+  dealii::Tensor<1, 2> displacement_of(const BarHost &host,
+                                       const NodeRecord<2> *nodes)
   {
     Vector u;
     for (unsigned int k = 0; k < 3; ++k)
@@ -141,9 +141,9 @@ namespace quoin
     return u;
   }
 
-  Bar place_bar(const CableParameters &given, const BarEnds &ends,
-                const std::vector<CrossedCell> &crossed,
-                const NodeMap<2> &nodes, const Thickness &thickness)
+  PlacedBar place_bar(const CableParameters &given, const BarEnds &ends,
+                      const std::vector<CrossedCell> &crossed,
+                      const NodeMap<2> &nodes, const Thickness &thickness)
   {
     const auto text = [](const Vector &p)
     { return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ")"; };
@@ -159,7 +159,7 @@ namespace quoin
                               : " begins")
                        + " outside of all blocks. Move that end into a block.");
 
-    Bar bar;
+    PlacedBar bar;
     const Vector line   = ends[1] - ends[0];
     const double length = line.norm();
     bar.direction       = line / length;

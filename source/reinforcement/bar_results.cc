@@ -36,8 +36,8 @@ namespace quoin
     };
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
-      const Bar &bar      = bars[b];
-      const BarState &now = states[b];
+      const PlacedBar &bar = bars[b];
+      const BarState &now  = states[b];
       if (reinforcement.sections()[bar.cable].name != cable)
         continue;
       for (unsigned int e = 0; e < now.force.size(); ++e)
@@ -89,8 +89,8 @@ namespace quoin
     const auto &states = state.get<ReinforcementState>().bars;
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
-      const Bar &bar      = bars[b];
-      const BarState &now = states[b];
+      const PlacedBar &bar = bars[b];
+      const BarState &now  = states[b];
       if (!now.installed)
         continue;
       for (unsigned int e = 0; e < now.force.size(); ++e)
@@ -101,7 +101,7 @@ namespace quoin
         {
           fields.position.push_back(bar.hosts[i].X);
           fields.displacement.push_back(
-              displacement(bar.hosts[i], state.nodes.data()));
+              displacement_of(bar.hosts[i], state.nodes.data()));
           fields.slip.push_back(now.slip[i]);
           fields.bond_force.push_back(
               bar.chain.bond[i] > 0.
@@ -133,7 +133,7 @@ namespace quoin
     for (unsigned int c = 0; c < cables.size(); ++c)
     {
       std::size_t n_bars = 0, n_elements = 0, n_dowels = 0;
-      for (const Bar &bar : reinforcement.all())
+      for (const PlacedBar &bar : reinforcement.all())
         if (bar.cable == c)
         {
           ++n_bars;

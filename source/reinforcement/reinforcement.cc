@@ -15,7 +15,8 @@ namespace quoin
 {
   namespace
   {
-    using Vector = dealii::Tensor<1, 2>;
+    constexpr unsigned int dim = 2;
+    using Vector               = dealii::Tensor<1, dim>;
 
     /** @p a turned by a right angle, anticlockwise. */
     Vector turned(const Vector &a)
@@ -26,12 +27,12 @@ namespace quoin
     Vector relative(const BarHost &near, const BarHost &far,
                     const NodeRecord<2> *nodes)
     {
-      return displacement(far, nodes) - displacement(near, nodes);
+      return displacement_of(far, nodes) - displacement_of(near, nodes);
     }
 
     /** Takes a bar out of blocks that are absent: all of it where its far end
         is. */
-    void lose_absent(const Bar &bar, const State<2> &state, BarState &now)
+    void lose_absent(const PlacedBar &bar, const State<2> &state, BarState &now)
     {
       const std::size_t last = bar.hosts.size() - 1;
       const bool is_gone     = state.is_absent(bar.hosts[last].block);
@@ -109,7 +110,7 @@ namespace quoin
     auto &states = state.get<ReinforcementState>().bars;
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
-      const Bar &bar         = bars[b];
+      const PlacedBar &bar   = bars[b];
       BarState &now          = states[b];
       const auto &given      = cables[bar.cable];
       const std::size_t last = bar.hosts.size() - 1;
@@ -134,8 +135,8 @@ namespace quoin
       update_pressure(state);
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
-      const Bar &bar    = bars[b];
-      const auto &given = cables[bar.cable];
+      const PlacedBar &bar = bars[b];
+      const auto &given    = cables[bar.cable];
       if (!states[b].installed || given.pretension == 0.
           || !(given.stage.empty() ? first : given.stage == name)
           || states[b].plate_offset != 0.)
@@ -208,7 +209,7 @@ namespace quoin
     }
   }
 
-  void Reinforcement::add_spring(const Bar &bar, const BarHost &near,
+  void Reinforcement::add_spring(const PlacedBar &bar, const BarHost &near,
                                  const BarHost &far, const Vector &axis,
                                  const double k) const
   {
@@ -221,13 +222,13 @@ namespace quoin
     }
     for (const auto &[row, v] : terms)
       for (const auto &[column, w] : terms)
-        for (const unsigned int d : { 0, 1 })
-          for (const unsigned int c : { 0, 1 })
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int c = 0; c < dim; ++c)
             work.stiffness[(row + d) * n + column + c]
                 += k * v * w * axis[d] * axis[c];
   }
 
-  BarDissipation Reinforcement::update_bar(const Bar &bar,
+  BarDissipation Reinforcement::update_bar(const PlacedBar &bar,
                                            const NodeRecord<2> *nodes,
                                            BarState &state,
                                            const bool is_static,
@@ -266,15 +267,15 @@ namespace quoin
                                    Eigen::RowMajor>;
       Matrix gradient = Matrix::Zero(m, n);
       for (unsigned int e = 0; e < m; ++e)
+      {
+        const BarHost &near = bar.hosts[e], &far = bar.hosts[e + 1];
+        auto row = gradient.row(e);
         for (unsigned int k = 0; k < 3; ++k)
-          for (const unsigned int d : { 0, 1 })
-          {
-            const BarHost &near = bar.hosts[e], &far = bar.hosts[e + 1];
-            gradient(e, 2 * near.places[k] + d)
-                -= near.weights[k] * work.axis[e][d];
-            gradient(e, 2 * far.places[k] + d)
-                += far.weights[k] * work.axis[e][d];
-          }
+        {
+          add_to_vector(row, near.places[k], -near.weights[k] * work.axis[e]);
+          add_to_vector(row, far.places[k], far.weights[k] * work.axis[e]);
+        }
+      }
       Eigen::Map<Matrix>(work.stiffness.data(), n, n).noalias()
           += gradient.transpose()
              * (Eigen::Map<const Matrix>(work.tangent.data(), m, m) * gradient);
@@ -286,8 +287,9 @@ namespace quoin
     return lost;
   }
 
-  void Reinforcement::add_dowels(const Bar &bar, const NodeRecord<2> *nodes,
-                                 BarState &state, const bool with_stiffness,
+  void Reinforcement::add_dowels(const PlacedBar &bar,
+                                 const NodeRecord<2> *nodes, BarState &state,
+                                 const bool with_stiffness,
                                  BarDissipation &lost) const
   {
     const BarLaw &law = bar.law;
@@ -419,7 +421,7 @@ namespace quoin
           sum[2] += s * axis[0] * axis[1];
         }
     };
-    for (const Bar &bar : bars)
+    for (const PlacedBar &bar : bars)
     {
       const BarLaw &law = bar.law;
       const Vector &t = bar.direction, across = turned(t);

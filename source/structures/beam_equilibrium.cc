@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_vectors.h>
 #include <quoin/joints/point_arrays.h>
 #include <quoin/structures/beam_equilibrium.h>
 
@@ -12,6 +13,7 @@ namespace quoin
 {
   namespace
   {
+    constexpr unsigned int dim             = 2;
     constexpr unsigned int most_iterations = 60;
     /** Unbalanced force of a beam by the sum of its forces [-]. */
     constexpr double force_ratio = 1e-11;
@@ -33,6 +35,23 @@ namespace quoin
                                       { 2 * b + 1, f * direction[0] },
                                       { 2 * a, f * direction[1] },
                                       { 2 * a + 1, -f * direction[0] } });
+    }
+
+    /** Adds to @p sum the stiffness @p part of a spring between the nodes @p a
+        and @p b. */
+    void add_between(const unsigned int a, const unsigned int b,
+                     const Eigen::Matrix2d &part, Eigen::MatrixXd &sum)
+    {
+      sum.block<2, 2>(2 * a, 2 * a) += part;
+      sum.block<2, 2>(2 * b, 2 * b) += part;
+      sum.block<2, 2>(2 * a, 2 * b) -= part;
+      sum.block<2, 2>(2 * b, 2 * a) -= part;
+    }
+
+    /** @p direction turned by a right angle, anticlockwise. */
+    dealii::Tensor<1, 2> across(const dealii::Tensor<1, 2> &direction)
+    {
+      return dealii::Point<2>(-direction[1], direction[0]);
     }
 
     /** An interface point whose energy depends on the gap g, as a law with the
@@ -85,12 +104,12 @@ namespace quoin
       for (unsigned int k = 0; k < line.n_segments(); ++k)
       {
         const unsigned int a = line.begin + k, b = line.next(a);
-        const BeamLine::Segment s = line.segment(a, now);
-        const Eigen::Vector2d t(s.direction[0], s.direction[1]),
-            normal(-s.direction[1], s.direction[0]);
-        normals[k]         = normal / s.length;
-        tangents[k]        = t;
-        const double axial = line.axial_force(a, s, now);
+        const BeamLine::Segment s    = line.segment(a, now);
+        const Eigen::Vector2d t      = to_eigen(s.direction),
+                              normal = to_eigen(across(s.direction));
+        normals[k]                   = normal / s.length;
+        tangents[k]                  = t;
+        const double axial           = line.axial_force(a, s, now);
         // The energy grows by (M_a - M_b) d theta as the segment turns.
         const double turns
             = (now.moment[a] - now.moment[b]) / (s.length * s.length);
@@ -98,11 +117,7 @@ namespace quoin
             = line.axial_stiffness / s.rest * t * t.transpose()
               + axial / s.length * normal * normal.transpose()
               - turns * (t * normal.transpose() + normal * t.transpose());
-        const unsigned int i = 2 * k, j = 2 * (b - line.begin);
-        sum.block<2, 2>(i, i) += part;
-        sum.block<2, 2>(j, j) += part;
-        sum.block<2, 2>(i, j) -= part;
-        sum.block<2, 2>(j, i) -= part;
+        add_between(k, b - line.begin, part, sum);
       }
       for (unsigned int i = line.begin; i < line.end; ++i)
       {
@@ -141,16 +156,16 @@ namespace quoin
         const double share = 1. / segments.size();
         for (const unsigned int first : segments)
         {
-          const unsigned int b         = line.next(first) - line.begin;
-          const Eigen::Vector2d change = by_axial * share * line.axial_stiffness
-                                         / line.at_rest(first).segment
-                                         * tangents[first - line.begin];
+          const unsigned int s = first - line.begin,
+                             e = line.next(first) - line.begin;
+          const Eigen::RowVector2d change
+              = by_axial * share * line.axial_stiffness
+                / line.at_rest(first).segment * tangents[s].transpose();
           for (const unsigned int a : used)
-            for (const unsigned int d : { 0, 1 })
-            {
-              sum(a, 2 * b + d) += slope[a] * change[d];
-              sum(a, 2 * (first - line.begin) + d) -= slope[a] * change[d];
-            }
+          {
+            sum.block<1, 2>(a, 2 * e) += slope[a] * change;
+            sum.block<1, 2>(a, 2 * s) -= slope[a] * change;
+          }
         }
       }
       return sum;
@@ -200,22 +215,20 @@ namespace quoin
                                b      = line.next(first) - line.begin;
             add_turning(a, b, s.direction, s.length, share, turning);
             // The angle of a segment has second derivatives, too.
-            const Eigen::Vector2d along(s.direction[0], s.direction[1]),
-                across(-s.direction[1], s.direction[0]);
-            const Eigen::Matrix2d curved
-                = -terms.couple * share / (s.length * s.length)
-                  * (along * across.transpose() + across * along.transpose());
-            sum.block<2, 2>(2 * a, 2 * a) += curved;
-            sum.block<2, 2>(2 * b, 2 * b) += curved;
-            sum.block<2, 2>(2 * a, 2 * b) -= curved;
-            sum.block<2, 2>(2 * b, 2 * a) -= curved;
+            const Eigen::Vector2d along  = to_eigen(s.direction),
+                                  normal = to_eigen(across(s.direction));
+            add_between(
+                a, b,
+                -terms.couple * share / (s.length * s.length)
+                    * (along * normal.transpose() + normal * along.transpose()),
+                sum);
           }
           for (const auto &[q, w] : turning)
           {
-            for (const unsigned int d : { 0, 1 })
+            for (unsigned int d = 0; d < dim; ++d)
             {
-              sum(q, 2 * at + d) -= w * terms.couple_by_gap[d];
-              sum(2 * at + d, q) -= w * terms.force_by_angle[d];
+              sum(q, dim * at + d) -= w * terms.couple_by_gap[d];
+              sum(dim * at + d, q) -= w * terms.force_by_angle[d];
             }
             for (const auto &[r, v] : turning)
               sum(q, r) += w * v * terms.by_angle;
@@ -265,10 +278,10 @@ namespace quoin
         coupling.block<2, 2>(2 * at, 2 * k) = part;
         forces.block<2, 2>(2 * k, 2 * at)   = part;
         for (const auto &[q, w] : turning)
-          for (const unsigned int d : { 0, 1 })
+          for (unsigned int d = 0; d < dim; ++d)
           {
-            coupling(q, 2 * k + d) -= w * terms.couple_by_gap[d];
-            forces(2 * k + d, q) -= w * terms.force_by_angle[d];
+            coupling(q, dim * k + d) -= w * terms.couple_by_gap[d];
+            forces(dim * k + d, q) -= w * terms.force_by_angle[d];
           }
       }
       for (unsigned int i = 0; i < n; ++i)

@@ -139,8 +139,9 @@ namespace quoin
   std::vector<NodeStiffness<2>>
   BeamMotion::stiffness_bound(const State<2> &state) const
   {
-    const BeamState &now = state.get<BeamState>();
-    std::vector<NodeStiffness<2>> result(mass.size(), NodeStiffness<2>{});
+    constexpr unsigned int dim = 2;
+    const BeamState &now       = state.get<BeamState>();
+    std::vector<NodeStiffness<dim>> result(mass.size(), NodeStiffness<dim>{});
     for (unsigned int b = 0; b < beams.all().size(); ++b)
     {
       const auto &[line, interface] = beams.all()[b];
@@ -149,7 +150,7 @@ namespace quoin
       add_bound(line, now, result);
       for (unsigned int k = 0; k < interface.points.size(); ++k)
         if (now.attached[interface.first + k])
-          for (const unsigned int d : { 0, 1 })
+          for (unsigned int d = 0; d < dim; ++d)
             result[line.begin + interface.points[k].at][d]
                 += interface.stiffness_bound(k);
     }

@@ -6,6 +6,8 @@
 
 #include <quoin/joints/joint_damping.h>
 
+#include <deal.II/base/tensor.h>
+
 #include <mpi.h>
 
 #include <array>
@@ -82,7 +84,7 @@ namespace quoin
       std::array<unsigned int, 2> blocks; /**< ascending */
       double mass;                        /**< m [kg]; 0: both are held */
       bool is_divided;
-      std::array<double, 2> springs; /**< K [N/m] */
+      dealii::Tensor<1, 2> springs; /**< K, normal and shear [N/m] */
     };
 
     DashpotBlocks blocks;

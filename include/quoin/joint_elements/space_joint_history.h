@@ -4,6 +4,7 @@
 #ifndef quoin_joint_elements_space_joint_history_h
 #define quoin_joint_elements_space_joint_history_h
 
+#include <quoin/base/packed_vectors.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/joints/joint_point.h>
 
@@ -82,11 +83,8 @@ namespace quoin
     point.normal_traction = history.normal_traction[p];
     point.plastic_opening = history.plastic_opening[p];
     point.state           = history.state[p];
-    for (const unsigned int d : { 0, 1 })
-    {
-      point.shear_traction[d] = history.shear_traction[2 * p + d];
-      point.plastic_slip[d]   = history.plastic_slip[2 * p + d];
-    }
+    point.shear_traction  = vector_at(history.shear_traction, p);
+    point.plastic_slip    = vector_at(history.plastic_slip, p);
     for (unsigned int i = 0; i < Point::internal.size(); ++i)
       point.*Point::internal[i] = history.internal[i][p];
     return point;
@@ -99,11 +97,8 @@ namespace quoin
     history.normal_traction[p] = point.normal_traction;
     history.plastic_opening[p] = point.plastic_opening;
     history.state[p]           = point.state;
-    for (const unsigned int d : { 0, 1 })
-    {
-      history.shear_traction[2 * p + d] = point.shear_traction[d];
-      history.plastic_slip[2 * p + d]   = point.plastic_slip[d];
-    }
+    set_vector(history.shear_traction, p, point.shear_traction);
+    set_vector(history.plastic_slip, p, point.plastic_slip);
     for (unsigned int i = 0; i < Point::internal.size(); ++i)
       history.internal[i][p] = point.*Point::internal[i];
   }

@@ -19,7 +19,7 @@ namespace quoin
   struct BarHost
   {
     std::array<unsigned int, 3> nodes;  /**< local */
-    std::array<unsigned int, 3> places; /**< of the nodes in Bar::nodes */
+    std::array<unsigned int, 3> places; /**< of the nodes in PlacedBar::nodes */
     std::array<double, 3> weights;      /**< [-] */
     unsigned int block;
     unsigned int cell;  /**< own deformable cell, or NodeMap::none */
@@ -32,7 +32,7 @@ namespace quoin
     unsigned int element;
   };
   /** A bolt or cable and the cells that it lies in. */
-  struct Bar
+  struct PlacedBar
   {
     unsigned int cable = 0; /**< number of its section */
     BarLaw law;             /**< in the thickness of the model */
@@ -46,15 +46,15 @@ namespace quoin
   };
 
   /** Displacement of a point of a cell [m]. */
-  dealii::Tensor<1, 2> displacement(const BarHost &host,
-                                    const NodeRecord<2> *nodes);
+  dealii::Tensor<1, 2> displacement_of(const BarHost &host,
+                                       const NodeRecord<2> *nodes);
 
   /** The bar of @p given from @p ends[0] to @p ends[1] [m] through the cells
       @p crossed; @p thickness of each cell group [m]. Throws an InputError
      about a bar that does not lie in blocks. */
-  Bar place_bar(const CableParameters &given, const BarEnds &ends,
-                const std::vector<CrossedCell> &crossed,
-                const NodeMap<2> &nodes, const Thickness &thickness);
+  PlacedBar place_bar(const CableParameters &given, const BarEnds &ends,
+                      const std::vector<CrossedCell> &crossed,
+                      const NodeMap<2> &nodes, const Thickness &thickness);
 } // namespace quoin
 
 #endif

@@ -95,13 +95,13 @@ namespace quoin
     {
       return cables;
     }
-    const std::vector<Bar> &all() const
+    const std::vector<PlacedBar> &all() const
     {
       return bars;
     }
 
   private:
-    /** Forces of a bar on Bar::nodes [N], and their derivatives. */
+    /** Forces of a bar on PlacedBar::nodes [N], and their derivatives. */
     struct Work
     {
       std::vector<double> stretch, tangent, force, stiffness;
@@ -111,14 +111,16 @@ namespace quoin
 
     /** Updates a bar and finds its forces in work; @p is_static: from the
         equilibrium at the last positions with the pressure of now. */
-    BarDissipation update_bar(const Bar &bar, const NodeRecord<2> *nodes,
+    BarDissipation update_bar(const PlacedBar &bar, const NodeRecord<2> *nodes,
                               BarState &state, bool is_static,
                               bool with_stiffness) const;
-    void add_dowels(const Bar &bar, const NodeRecord<2> *nodes, BarState &state,
-                    bool with_stiffness, BarDissipation &lost) const;
+    void add_dowels(const PlacedBar &bar, const NodeRecord<2> *nodes,
+                    BarState &state, bool with_stiffness,
+                    BarDissipation &lost) const;
     /** Adds a spring @p k along @p axis between two points to the stiffness. */
-    void add_spring(const Bar &bar, const BarHost &near, const BarHost &far,
-                    const dealii::Tensor<1, 2> &axis, double k) const;
+    void add_spring(const PlacedBar &bar, const BarHost &near,
+                    const BarHost &far, const dealii::Tensor<1, 2> &axis,
+                    double k) const;
     void add_pair_force(const BarHost &near, const BarHost &far,
                         const dealii::Tensor<1, 2> &force) const;
     /** Updates the pressure on the bond of all bars. Collective. */
@@ -130,7 +132,7 @@ namespace quoin
     const NodeMap<2> *node_map  = nullptr;
     const BlockForces<2> *cells = nullptr;
     std::vector<CableParameters> cables;
-    std::vector<Bar> bars;
+    std::vector<PlacedBar> bars;
     bool has_friction = false;
     bool is_first     = true; /**< rank */
     mutable Work work;
