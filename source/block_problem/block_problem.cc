@@ -89,8 +89,8 @@ namespace quoin
       const bool is_steady         = given.flow == FlowKind::steady;
       std::vector<std::string> lines{ text_of(
           "water: ", is_steady ? "steady" : "transient", " flow in ",
-          water.network().channels().size(), " joint faces between ",
-          water.network().n_nodes(), " places") };
+          water.channels().network.channels().size(), " joint faces between ",
+          water.channels().network.n_nodes(), " places") };
       for (const HydraulicAperture &joint : given.joints)
         lines.push_back(text_of("water in joints ", joint.name, ": aperture ",
                                 joint.initial, " m and opening, from ",
@@ -102,8 +102,9 @@ namespace quoin
             text_of("water at ", boundary.name, ": ",
                     boundary.quantity == WaterQuantity::pressure ? "pressure"
                     : boundary.quantity == WaterQuantity::head   ? "head"
+                    : boundary.quantity == WaterQuantity::outlet ? "outlet"
                                                                  : "flow",
-                    " at ", water.nodes_at(b).size(), " of them"));
+                    " at ", water.channels().boundary_nodes[b].size(), " of them"));
       }
       return lines;
     }

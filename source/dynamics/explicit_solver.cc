@@ -159,7 +159,7 @@ namespace quoin
       if (all.water && all.water->acts())
       {
         forces.push_back(all.water);
-        if (previous && !all.water->acts_in(previous->name))
+        if (previous && !all.water->parameters().acts_in(previous->name))
           begun.push_back(all.water);
       }
     if (acting.pattern)

@@ -8,6 +8,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/model/block_placement.h>
+#include <quoin/reinforcement/bar_results.h>
 #include <quoin/results/point_values.h>
 #include <quoin/results/result_origin.h>
 #include <quoin/water/joint_flow.h>
@@ -246,9 +247,10 @@ namespace quoin
       const JointFlow &flow           = *solver.loads().water;
       const auto &places              = flow.parameters().boundaries;
       if (const auto *place = find_named(places, wanted.water))
-        probe.water_nodes = flow.nodes_at(place - places.data());
+        probe.water_nodes
+            = flow.channels().boundary_nodes[place - places.data()];
       else if (!wanted.curve.empty())
-        probe.water_nodes = flow.nodes_on(
+        probe.water_nodes = flow.channels().nodes_on(
             { wanted.curve },
             "section 'Histories/" + wanted.name + "': ", "Curve");
     }

@@ -18,8 +18,6 @@ namespace quoin
 {
   namespace
   {
-    constexpr unsigned int none = -1;
-
     /** Largest change of a pressure, by the largest pressure, at which an
         equilibrium is one [-]. */
     constexpr double pressure_tolerance    = 1e-6;
@@ -30,203 +28,15 @@ namespace quoin
                        const NodeMap<2> &nodes, const MatchedJoints &joints,
                        const std::vector<JointSetParameters> &sets,
                        const Thickness &thickness)
-    : given(parameters), node_map(nodes), joints(joints)
+    : given(parameters), node_map(nodes), joints(joints),
+      places(parameters, nodes, joints, sets, thickness),
+      flow_network(places.network), is_wall(places.elevation.size(), 0),
+      compliance(places.elevation.size(), 0.)
   {
-    make_network(sets, thickness);
-    find_boundaries();
-  }
-
-  void JointFlow::make_network(const std::vector<JointSetParameters> &sets,
-                               const Thickness &thickness)
-  {
-    aperture_of_set.assign(sets.size(), nullptr);
-    for (const HydraulicAperture &aperture : given.joints)
-    {
-      const auto set = std::find_if(sets.begin(), sets.end(),
-                                    [&](const JointSetParameters &candidate) {
-                                      return candidate.name == aperture.name;
-                                    });
-      if (set == sets.end())
-        throw InputError(
-            "section 'Water joints': 'Names' has '" + aperture.name
-            + "', which is no set of section 'Joints'. Sets are: "
-            + known_names_like(aperture.name, sets, &JointSetParameters::name)
-            + ".");
-      aperture_of_set[set - sets.begin()] = &aperture;
-    }
-    for (const JointLaw &law : joints.laws())
-      compliance_of_set.push_back(1. / stiffness_bound(law)[0]);
-
-    std::vector<Face> own;
-    for (const JointSegment &segment : joints.segments())
-    {
-      const JointNodes<2> &joint = node_map.faces().joints[segment.face];
-      if (!joint.is_own[0])
-        continue;
-      Face face;
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        face.lower[k]  = node_map.exchange().global(segment.lower[k]);
-        face.upper[k]  = node_map.exchange().global(segment.upper[k]);
-        face.points[k] = node_map.point(segment.lower[k]);
-      }
-      face.blocks    = joint.blocks;
-      face.areas     = segment.area;
-      face.number    = joint.number;
-      face.set       = segment.set;
-      face.thickness = thickness.common(joint.groups[0], joint.groups[1]);
-      own.push_back(face);
-    }
-    std::vector<Face> all;
-    for (const auto &part :
-         dealii::Utilities::MPI::all_gather(node_map.communicator(), own))
-      all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end(),
-              [](const Face &a, const Face &b) { return a.number < b.number; });
-
-    // Nodes of the mesh that lie on each other are one node of the network,
-    // also across joints without water.
-    DisjointSets together(node_map.exchange().n_global());
-    for (const Face &face : all)
-      for (unsigned int k = 0; k < 2; ++k)
-        together.unite(face.lower[k], face.upper[k]);
-    std::map<unsigned int, unsigned int> number; // by representatives
-    std::vector<FlowChannel> channels;
-    std::map<unsigned int, unsigned int> channel_of_joint;
-    for (const Face &face : all)
-    {
-      if (!aperture_of_set[face.set])
-        continue;
-      FlowChannel channel{};
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        const auto [place, is_new]
-            = number.emplace(together.find(face.lower[k]), number.size());
-        if (is_new)
-          elevation.push_back(face.points[k][1]);
-        channel.nodes[k]    = place->second;
-        channel.aperture[k] = aperture_of_set[face.set]->at(0.);
-      }
-      channel.length    = std::hypot(face.points[1][0] - face.points[0][0],
-                                     face.points[1][1] - face.points[0][1]);
-      channel.thickness = face.thickness;
-      channel_of_joint[face.number] = channels.size();
-      channels.push_back(channel);
-      faces.push_back(face);
-    }
-    if (channels.empty())
-      throw InputError("section 'Water joints': no joint of the mesh is of a "
-                       "set of 'Names', so no water can flow. Name a set of "
-                       "section 'Joints' that has joints.");
-    for (const Face &face : all)
-      for (unsigned int k = 0; k < 2; ++k)
-        for (const unsigned int node : { face.lower[k], face.upper[k] })
-          if (const auto found = number.find(together.find(node));
-              found != number.end())
-          {
-            node_of_mesh.emplace_back(node, found->second);
-            if (!aperture_of_set[face.set] && node == face.lower[k])
-              dry_faces.push_back({ face.blocks, found->second });
-          }
-    std::sort(node_of_mesh.begin(), node_of_mesh.end());
-    node_of_mesh.erase(std::unique(node_of_mesh.begin(), node_of_mesh.end()),
-                       node_of_mesh.end());
-    for (const JointSegment &segment : joints.segments())
-    {
-      const auto found
-          = channel_of_joint.find(node_map.faces().joints[segment.face].number);
-      channel_of_segment.push_back(
-          found == channel_of_joint.end() ? none : found->second);
-    }
-    flow_network = FlowNetwork(given.fluid, elevation, channels);
-    is_wall.assign(elevation.size(), 0);
-    compliance.assign(elevation.size(), 0.);
-  }
-
-  std::vector<unsigned int>
-  JointFlow::nodes_on(const std::vector<std::string> &curves,
-                      const std::string &where, const std::string &entry) const
-  {
-    const auto &names = node_map.table().face_names;
-    std::vector<bool> wanted(names.size(), false);
-    for (const std::string &curve : curves)
-    {
-      const auto line = std::find(names.begin(), names.end(), curve);
-      if (line == names.end())
-        throw InputError(where + "'" + entry + "' names '" + curve
-                         + "', but the mesh has no curve of that name. It "
-                           "has: "
-                         + known_names_like(curve, names) + ".");
-      wanted[line - names.begin()] = true;
-    }
-    std::vector<unsigned int> nodes;
-    for (const BoundaryFace<2> &face : gather_faces(node_map, wanted, true))
-      for (const unsigned int node : face.nodes)
-      {
-        const auto found = std::lower_bound(
-            node_of_mesh.begin(), node_of_mesh.end(), std::make_pair(node, 0U));
-        if (found != node_of_mesh.end() && found->first == node)
-          nodes.push_back(found->second);
-      }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    if (nodes.empty())
-      throw InputError(where
-                       + "no joint of section 'Water joints' ends on the "
-                         "curves of '"
-                       + entry + "'. Name one where joints end"
-                       + (entry == "Boundary" ? ", or give a 'Point'." : "."));
-    return nodes;
-  }
-
-  void JointFlow::find_boundaries()
-  {
-    std::vector<dealii::Point<2>> place(elevation.size());
-    for (unsigned int c = 0; c < faces.size(); ++c)
-      for (unsigned int k = 0; k < 2; ++k)
-        place[flow_network.channels()[c].nodes[k]] = faces[c].points[k];
-
-    std::vector<unsigned int> owner(elevation.size(), none);
-    for (unsigned int b = 0; b < given.boundaries.size(); ++b)
-    {
-      const WaterBoundary &boundary = given.boundaries[b];
-      const std::string where
-          = "section 'Water boundaries/" + boundary.name + "': ";
-      std::vector<unsigned int> nodes;
-      if (boundary.point)
-      {
-        double nearest = std::numeric_limits<double>::max();
-        for (unsigned int i = 0; i < place.size(); ++i)
-        {
-          const double distance
-              = std::hypot(place[i][0] - (*boundary.point)[0],
-                           place[i][1] - (*boundary.point)[1]);
-          // Rounding must not decide between equal distances.
-          if (distance < nearest * (1. - 1e-9))
-          {
-            nearest = distance;
-            nodes   = { i };
-          }
-        }
-      }
-      else
-        nodes = nodes_on(boundary.curves, where, "Boundary");
-      for (const unsigned int node : nodes)
-      {
-        if (owner[node] != none)
-          throw InputError(
-              where + "the end of a joint at (" + number_text(place[node][0])
-              + ", " + number_text(place[node][1]) + ") m has a value of '"
-              + given.boundaries[owner[node]].name
-              + "' already. Give one value at each place.");
-        owner[node] = b;
-      }
-      boundary_nodes.push_back(nodes);
-    }
     now.boundary_flow.assign(given.boundaries.size(), 0.);
-    now.node_inflow.assign(elevation.size(), 0.);
-    now.pressure.assign(elevation.size(), 0.);
-    now.content.assign(elevation.size(), 0.);
+    now.node_inflow.assign(places.elevation.size(), 0.);
+    now.pressure.assign(places.elevation.size(), 0.);
+    now.content.assign(places.elevation.size(), 0.);
     const std::size_t n = joints.segments().size();
     now.point_pressure.assign(2 * n, 0.);
     now.point_aperture.assign(2 * n, 0.);
@@ -246,57 +56,58 @@ namespace quoin
 
   void JointFlow::find_open_channels(const State<2> &state)
   {
-    is_wall.assign(elevation.size(), 0);
-    for (unsigned int c = 0; c < faces.size(); ++c)
+    is_wall.assign(places.elevation.size(), 0);
+    for (unsigned int c = 0; c < places.faces.size(); ++c)
     {
       FlowChannel &channel = flow_network.channels()[c];
-      channel.is_open      = !state.is_absent(faces[c].blocks[0])
-                        && !state.is_absent(faces[c].blocks[1]);
+      channel.is_open      = !state.is_absent(places.faces[c].blocks[0])
+                        && !state.is_absent(places.faces[c].blocks[1]);
       if (!channel.is_open)
         for (const unsigned int node : channel.nodes)
           is_wall[node] = 1;
     }
-    for (const DryFace &face : dry_faces)
+    for (const JointChannels::DryFace &face : places.dry_faces)
       if (state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]))
         is_wall[face.node] = 1;
   }
 
   void JointFlow::set_apertures(const NodeRecord<2> *nodes)
   {
-    std::vector<double> openings(2 * faces.size(), 0.);
-    for (unsigned int i = 0; i < channel_of_segment.size(); ++i)
+    std::vector<double> openings(2 * places.faces.size(), 0.);
+    for (unsigned int i = 0; i < places.of_segment.size(); ++i)
     {
       const JointSegment &segment = joints.segments()[i];
       // A joint between two ranks is told by that of its lower side.
-      if (channel_of_segment[i] == none
+      if (places.of_segment[i] == JointChannels::no_channel
           || !node_map.faces().joints[segment.face].is_own[0])
         continue;
       const auto gaps = joint_gaps(segment, nodes);
       for (unsigned int k = 0; k < 2; ++k)
-        openings[2 * channel_of_segment[i] + k] = gaps[k][0];
+        openings[2 * places.of_segment[i] + k] = gaps[k][0];
     }
     dealii::Utilities::MPI::sum(openings, node_map.communicator(), openings);
     std::fill(compliance.begin(), compliance.end(), 0.);
-    for (unsigned int c = 0; c < faces.size(); ++c)
+    for (unsigned int c = 0; c < places.faces.size(); ++c)
       for (unsigned int k = 0; k < 2; ++k)
       {
-        const HydraulicAperture &law = *aperture_of_set[faces[c].set];
-        FlowChannel &channel         = flow_network.channels()[c];
-        channel.aperture[k]          = law.at(openings[2 * c + k]);
+        const HydraulicAperture &law
+            = *places.aperture_of_set[places.faces[c].set];
+        FlowChannel &channel = flow_network.channels()[c];
+        channel.aperture[k]  = law.at(openings[2 * c + k]);
         if (channel.is_open && law.moves(openings[2 * c + k]))
-          compliance[channel.nodes[k]] += 0.5 * channel.thickness
-                                          * channel.length
-                                          * compliance_of_set[faces[c].set];
+          compliance[channel.nodes[k]]
+              += 0.5 * channel.thickness * channel.length
+                 * places.compliance_of_set[places.faces[c].set];
       }
   }
 
   FlowConditions JointFlow::conditions(const TimePoint &time) const
   {
-    FlowConditions result(elevation.size());
+    FlowConditions result(places.elevation.size());
     // With a free surface water does not enter from the air.
     const bool is_free = given.fluid.has_free_surface;
     (is_free ? result.is_outlet : result.is_given) = is_wall;
-    for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
+    for (unsigned int b = 0; b < places.boundary_nodes.size(); ++b)
     {
       const WaterBoundary &boundary = given.boundaries[b];
       const double value            = boundary.value(time);
@@ -305,16 +116,16 @@ namespace quoin
                        + "' is no finite number at the time "
                        + number_text(time.stage)
                        + " s of the stage. Correct its function of time.");
-      for (const unsigned int node : boundary_nodes[b])
+      for (const unsigned int node : places.boundary_nodes[b])
       {
         if (boundary.quantity == WaterQuantity::flow)
         {
-          result.source[node] = value / double(boundary_nodes[b].size());
+          result.source[node] = value / double(places.boundary_nodes[b].size());
           continue;
         }
         const double pressure
             = boundary.quantity == WaterQuantity::head
-                  ? given.fluid.unit_weight * (value - elevation[node])
+                  ? given.fluid.unit_weight * (value - places.elevation[node])
                   : value;
         const bool is_outlet
             = boundary.quantity == WaterQuantity::outlet
@@ -343,8 +154,8 @@ namespace quoin
                                        const JointFlowState &before) const
   {
     const auto unconnected = flow_network.unconnected_nodes(at);
-    for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
-      for (const unsigned int node : boundary_nodes[b])
+    for (unsigned int b = 0; b < places.boundary_nodes.size(); ++b)
+      for (const unsigned int node : places.boundary_nodes[b])
         if (unconnected[node] && at.source[node] != 0.)
           throw RunError("section 'Water boundaries/" + given.boundaries[b].name
                          + "': water flows into joints from which there is no "
@@ -382,16 +193,16 @@ namespace quoin
     if (is_steady || dt > 0.)
       for (unsigned int i = 0; i < solution.inflow.size(); ++i)
         now.node_inflow[i] = solution.inflow[i] / (is_steady ? 1. : dt);
-    for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
+    for (unsigned int b = 0; b < places.boundary_nodes.size(); ++b)
     {
       now.boundary_flow[b] = 0.;
-      for (const unsigned int node : boundary_nodes[b])
+      for (const unsigned int node : places.boundary_nodes[b])
         now.boundary_flow[b] += now.node_inflow[node];
     }
-    for (unsigned int i = 0; i < channel_of_segment.size(); ++i)
+    for (unsigned int i = 0; i < places.of_segment.size(); ++i)
     {
-      const unsigned int c = channel_of_segment[i];
-      if (c == none || !flow_network.channels()[c].is_open)
+      const unsigned int c = places.of_segment[i];
+      if (c == JointChannels::no_channel || !flow_network.channels()[c].is_open)
       {
         now.flow[i] = now.velocity[i] = 0.;
         for (unsigned int k = 0; k < 2; ++k)
@@ -417,12 +228,12 @@ namespace quoin
   {
     std::map<unsigned int, dealii::Tensor<1, 2>> sum;
     const NodeExchange &exchange = node_map.exchange();
-    for (unsigned int c = 0; now.acts && c < faces.size(); ++c)
+    for (unsigned int c = 0; now.acts && c < places.faces.size(); ++c)
     {
       const FlowChannel &channel = flow_network.channels()[c];
       if (!channel.is_open)
         continue;
-      const Face &face = faces[c];
+      const JointChannel &face = places.faces[c];
       double p[2];
       for (unsigned int k = 0; k < 2; ++k)
       {
@@ -436,8 +247,8 @@ namespace quoin
           (face.points[0][0] - face.points[1][0]) / channel.length);
       for (unsigned int k = 0; k < 2; ++k)
       {
-        // Of linear faces the integral of a linear pressure; halves of
-        // quadratic faces have the weights of Simpson's rule.
+        // Of linear places.faces the integral of a linear pressure; halves of
+        // quadratic places.faces have the weights of Simpson's rule.
         const double size = node_map.cells().is_quadratic
                                 ? face.areas[k] * p[k]
                                 : channel.thickness * channel.length / 6.
@@ -464,7 +275,7 @@ namespace quoin
     now.time              = state.time;
     find_open_channels(state);
     const bool begins = !now.acts;
-    now.acts          = acts_in(name);
+    now.acts          = given.acts_in(name);
     if (!now.acts)
     {
       for (auto *values :
@@ -493,12 +304,12 @@ namespace quoin
     {
       solution.pressure = now.pressure;
       solution.content  = flow_network.contents(now.pressure);
-      solution.saturation.assign(elevation.size(), 1.);
+      solution.saturation.assign(places.elevation.size(), 1.);
       if (given.fluid.has_free_surface)
         start_free_surface(begins, solution);
     }
     if (given.flow == FlowKind::transient)
-      solution.inflow.assign(elevation.size(), 0.);
+      solution.inflow.assign(places.elevation.size(), 0.);
     before         = now;
     before.content = solution.content;
     take(solution, state.time, 0., before);
@@ -509,7 +320,7 @@ namespace quoin
                                      FlowSolution &solution) const
   {
     const std::vector<double> volumes = flow_network.volumes();
-    for (unsigned int i = 0; i < elevation.size(); ++i)
+    for (unsigned int i = 0; i < places.elevation.size(); ++i)
     {
       if (begins && given.initial == InitialWater::dry)
         solution.content[i] = 0.;
@@ -592,18 +403,21 @@ namespace quoin
     if (given.flow != FlowKind::transient)
       return 0.;
     // Water in a joint of the smallest aperture that moves is a spring between
-    // its faces: a row of the matrix has at most twice its diagonal.
+    // its places.faces: a row of the matrix has at most twice its diagonal.
     std::vector<double> stiffness(mass.size(), 0.);
-    for (unsigned int c = 0; c < faces.size(); ++c)
+    for (unsigned int c = 0; c < places.faces.size(); ++c)
     {
-      const HydraulicAperture &law = *aperture_of_set[faces[c].set];
+      const HydraulicAperture &law
+          = *places.aperture_of_set[places.faces[c].set];
       if (law.residual == law.largest)
         continue;
       for (unsigned int k = 0; k < 2; ++k)
-        for (const unsigned int node : { faces[c].lower[k], faces[c].upper[k] })
+        for (const unsigned int node :
+             { places.faces[c].lower[k], places.faces[c].upper[k] })
           if (node_map.exchange().owns(node))
             stiffness[node_map.exchange().local(node)]
-                += given.fluid.bulk_modulus / law.residual * faces[c].areas[k];
+                += given.fluid.bulk_modulus / law.residual
+                   * places.faces[c].areas[k];
     }
     double largest = 0.;
     for (unsigned int i = 0; i < mass.size(); ++i)

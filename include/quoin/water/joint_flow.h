@@ -5,10 +5,9 @@
 #define quoin_water_joint_flow_h
 
 #include <quoin/base/archive_members.h>
-#include <quoin/base/known_names.h>
-#include <quoin/base/thickness.h>
 #include <quoin/joint_elements/matched_joints.h>
 #include <quoin/operators/force_operator.h>
+#include <quoin/water/joint_channels.h>
 #include <quoin/water/water_parameters.h>
 
 #include <string>
@@ -90,11 +89,6 @@ namespace quoin
     void begin_stage(const std::string &name, State<2> &state);
     /** Continues it with the water of @p state. Collective. */
     void resume_stage(const State<2> &state);
-    /** Whether water is in the joints in stage @p name. */
-    bool acts_in(const std::string &name) const
-    {
-      return given.stages.empty() || is_among(name, given.stages);
-    }
     /** Whether there is water in the stage. */
     bool acts() const
     {
@@ -140,25 +134,13 @@ namespace quoin
     {
       return given;
     }
-    const FlowNetwork &network() const
+    /** The network of flow and where it lies in the mesh. */
+    const JointChannels &channels() const
     {
-      return flow_network;
+      return places;
     }
-    /** Nodes of the network at @p boundary of the parameters. */
-    const std::vector<unsigned int> &nodes_at(const unsigned int boundary) const
-    {
-      return boundary_nodes[boundary];
-    }
-    /** Nodes of the network on @p curves, given by the entry @p entry. Throws
-       an InputError that begins with @p where if there are none. Collective. */
-    std::vector<unsigned int> nodes_on(const std::vector<std::string> &curves,
-                                       const std::string &where,
-                                       const std::string &entry) const;
 
   private:
-    void make_network(const std::vector<JointSetParameters> &sets,
-                      const Thickness &thickness);
-    void find_boundaries();
     /** Opens and closes channels and finds ends at absent blocks. */
     void find_open_channels(const State<2> &state);
     /** Gives channels the apertures of @p nodes; collective. */
@@ -179,48 +161,13 @@ namespace quoin
     /** Forces of the pressures of now. */
     void find_forces();
 
-    /** A channel's place in the mesh. */
-    struct Face
-    {
-      std::array<unsigned int, 2> lower, upper; /**< global nodes */
-      std::array<dealii::Point<2>, 2> points;
-      std::array<unsigned int, 2> blocks;
-      std::array<double, 2> areas; /**< of the points [m^2] */
-      unsigned int number = 0;     /**< of the joint face on all ranks */
-      unsigned int set    = 0;
-      double thickness    = 1.;
-
-      template <typename Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &lower &upper &points &blocks &areas &number &set &thickness;
-      }
-    };
-
     const WaterParameters given;
     const NodeMap<2> &node_map;
     const MatchedJoints &joints;
-    FlowNetwork flow_network;
-    std::vector<Face> faces; /**< of each channel */
-    /** A face of a dry joint at which channels end, such as that along which
-        rock is excavated. */
-    struct DryFace
-    {
-      std::array<unsigned int, 2> blocks;
-      unsigned int node; /**< of the network */
-    };
-    std::vector<DryFace> dry_faces;
-    /** Channel of each local segment; none without water. */
-    std::vector<unsigned int> channel_of_segment;
-    /** Aperture of each set of joints; null: no water. */
-    std::vector<const HydraulicAperture *> aperture_of_set;
-    std::vector<double> compliance_of_set; /**< of joints [m/Pa] */
-    std::vector<double> compliance;        /**< of nodes [m^3/Pa] */
-    std::vector<double> elevation;         /**< of nodes [m] */
-    /** Global nodes of the mesh and their node of the network. */
-    std::vector<std::pair<unsigned int, unsigned int>> node_of_mesh;
-    std::vector<std::vector<unsigned int>> boundary_nodes;
+    const JointChannels places;
+    FlowNetwork flow_network;          /**< with the apertures of now */
     std::vector<std::uint8_t> is_wall; /**< nodes at absent blocks */
+    std::vector<double> compliance;    /**< of nodes [m^3/Pa] */
 
     JointFlowState now, before;
     std::vector<unsigned int> force_nodes;    /**< local, owned */

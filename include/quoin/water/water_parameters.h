@@ -4,6 +4,7 @@
 #ifndef quoin_water_water_parameters_h
 #define quoin_water_water_parameters_h
 
+#include <quoin/base/known_names.h>
 #include <quoin/base/parameter_section.h>
 #include <quoin/signals/time_function.h>
 #include <quoin/water/flow_network.h>
@@ -92,6 +93,12 @@ namespace quoin
     std::vector<std::string> stages; /**< in which it acts; empty: all */
     std::vector<HydraulicAperture> joints;
     std::vector<WaterBoundary> boundaries;
+
+    /** Whether water is in the joints in stage @p name. */
+    bool acts_in(const std::string &name) const
+    {
+      return stages.empty() || is_among(name, stages);
+    }
 
     static void declare(dealii::ParameterHandler &prm);
     /** Reads the three sections of @p top. */
