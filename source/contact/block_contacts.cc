@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// Forces of contacts, for several pairs at once, and how contacts begin and
-// end, one by one. What happens between steps is in block_contacts_search.cc.
-
-#include <quoin/joint_elements/dashpot_tractions.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/base/wall_clock.h>
 #include <quoin/contact/block_contacts.h>
+#include <quoin/contact/joint_handover.h>
+#include <quoin/joint_elements/dashpot_bounds.h>
+#include <quoin/joint_elements/dashpot_tractions.h>
+#include <quoin/mesh/global_geometry.h>
+#include <quoin/operators/archive.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "contact_pack.h"
 #include "contact_points.h"
@@ -38,6 +42,42 @@ namespace quoin
                  : typename Lanes<lanes>::Value{};
     }
 
+    /** The largest square, x, -x, y and -y among vectors on all ranks. */
+    struct Spread
+    {
+      static constexpr double none_yet
+          = -std::numeric_limits<double>::infinity();
+      std::array<double, 5> largest{ { 0., none_yet, none_yet, none_yet,
+                                       none_yet } };
+
+      void take(const double x, const double y)
+      {
+        const std::array<double, 5> values{ { x * x + y * y, x, -x, y, -y } };
+        for (unsigned int i = 0; i < values.size(); ++i)
+          largest[i] = std::max(largest[i], values[i]);
+      }
+      /** A bound of the difference of two of them: what all share is none. */
+      double difference() const
+      {
+        return std::min(
+            2. * std::sqrt(largest[0]),
+            std::hypot(largest[1] + largest[2], largest[3] + largest[4]));
+      }
+    };
+
+    /** What ranks tell each other when they look at the motions. */
+    struct Look
+    {
+      Spread moved, speed;
+      double changed = 0.; /**< 1: joints go, or blocks have gone */
+      double deepest = 0.; /**< overlap by that at which the run ends */
+
+      void collect(const MPI_Comm communicator)
+      {
+        MPI_Allreduce(MPI_IN_PLACE, this, sizeof(Look) / sizeof(double),
+                      MPI_DOUBLE, MPI_MAX, communicator);
+      }
+    };
     void make_marks(ContactState &contacts)
     {
       // Lanes beyond the last pair are none that begins.
@@ -52,19 +92,141 @@ namespace quoin
     }
   } // namespace
 
-  double BlockContacts::release(ContactPair &pair) const
+  BlockContacts::BlockContacts(const NodeMap<2> &node_map,
+                               const MatchedJoints &joints,
+                               const ContactModel &model)
+    : node_map(node_map), joints(joints), exchange(node_map.exchange()),
+      edges(node_map), parameters(model.parameters), thickness(model.thickness),
+      near(node_map, edges, parameters, thickness),
+      contact_laws(model.sets, model.materials, model.material_of_group),
+      search(node_map, edges, near, contact_laws, parameters.skin),
+      n_lanes(model.n_lanes)
   {
-    double energy = 0.;
-    for (ContactPoint &point : pair.points)
+  }
+
+  void BlockContacts::prepare(State<2> &state) const
+  {
+    state.add<ContactState>();
+  }
+
+  void BlockContacts::update(const StepContext &step, State<2> &state)
+  {
+    ContactState &contacts = state.get<ContactState>();
+    if (bound_search != contacts.n_searches)
+      bind(contacts);
+    if (state.step >= contacts.next_check)
+      check(state, step.dt);
+    near.moving_edges().gather(state);
+  }
+
+  void BlockContacts::check(State<2> &state, const double dt)
+  {
+    ContactState &contacts = state.get<ContactState>();
+    const bool is_first    = contacts.n_searches == 0;
+    contacts.handed_over.resize(node_map.table().joined.size(), 0);
+    Look look;
+    for (unsigned int i = 0; i < edges.boundary_nodes().size() && !is_first;
+         ++i)
     {
-      with_law(pair.set, [&](const auto &law)
-               { energy += point.area * released_energy(law, point); });
-      point = ContactPoint();
+      const NodeRecord<2> &node        = state.nodes[edges.boundary_nodes()[i]];
+      const dealii::Tensor<1, 2> &from = contacts.search_positions[i];
+      const dealii::Tensor<1, 2> &v = state.velocity[edges.boundary_nodes()[i]];
+      look.moved.take(node.X[0] + node.u[0] - from[0],
+                      node.X[1] + node.u[1] - from[1]);
+      look.speed.take(v[0], v[1]);
     }
-    pair.active    = 0;
-    pair.was_joint = 0;
-    pair.shift     = 0.;
-    return energy;
+    look.changed  = find_handovers(edges, joints, parameters.handover, state)
+                           || search_is_due
+                        ? 1.
+                        : 0.;
+    search_is_due = false;
+    look.deepest  = deepest_ratio;
+    look.collect(exchange.communicator());
+    if (look.changed > 0.)
+      hand_over(edges, joints, exchange.communicator(), state);
+    if (look.deepest > 1.)
+      refuse_depth(state, look.deepest);
+    const double fastest = std::sqrt(look.speed.largest[0]);
+    if (fastest * dt > search.skin().largest())
+      refuse_speed(state, fastest, dt);
+
+    // What edges may approach in a step until the next look, at twice the
+    // present speed.
+    const double ahead    = 2. * look.speed.difference() * dt;
+    const double approach = look.moved.difference();
+    double left           = contacts.skin - approach;
+    if (is_first || look.changed > 0. || left < ahead
+        || state.step >= contacts.renewal)
+    {
+      const auto start   = WallClock::now();
+      const double steps = state.step - contacts.searched;
+      const double rate  = approach / std::max(1., steps);
+      search.renew(state, rate);
+      bind(contacts);
+      near.moving_edges().gather(state);
+      inherit_shifts(near, contacts);
+      reanchor(near, contacts);
+      spent.search_seconds += seconds_since(start);
+      contacts.searched = state.step;
+      contacts.renewal  = search.skin().renewal(contacts, rate);
+      left              = contacts.skin;
+    }
+    contacts.next_check
+        = state.step + search.skin().interval(contacts, left, ahead);
+  }
+
+  void BlockContacts::add_stiffness_bound(
+      const State<2> &, const NodeRatio &,
+      std::vector<NodeStiffness<2>> &stiffness) const
+  {
+    // A spring k between nodes a and b has no more energy than 2 k at each.
+    const auto acts           = contact_laws.sets_on_blocks(joints, node_map);
+    const unsigned int n_sets = contact_laws.laws().size();
+    std::vector<double> stiffest(node_map.table().n_blocks(), 0.);
+    for (unsigned int b = 0; b < stiffest.size(); ++b)
+      for (unsigned int s = 0; s < n_sets; ++s)
+        if (acts[b * n_sets + s])
+          for (const double largest : stiffness_bound(contact_laws.laws()[s]))
+            stiffest[b] = std::max(stiffest[b], largest);
+    for_each_boundary_edge(
+        node_map, thickness,
+        [&](const std::array<unsigned int, 2> &edge, const double tributary)
+        {
+          for (const unsigned int node : edge)
+            for (unsigned int c = 0; c < 2; ++c)
+              stiffness[node][c]
+                  += 2. * stiffest[node_map.block_of_node(node)] * tributary;
+        });
+  }
+
+  void BlockContacts::add_damping_bound(const std::vector<double> &masses,
+                                        const double impedance,
+                                        DampingBound &bound) const
+  {
+    add_dashpots(
+        node_map, thickness, contact_laws.sets_on_blocks(joints, node_map),
+        contact_laws.laws(), contact_laws.dampings(), masses, impedance, bound);
+  }
+  void BlockContacts::bind(const ContactState &contacts)
+  {
+    near.bind(contacts);
+    const unsigned int n_nodes = near.moving_edges().n_nodes();
+    compact_force.assign(n_nodes, dealii::Tensor<1, 2>());
+    compact_viscous.assign(n_nodes, dealii::Tensor<1, 2>());
+    if (has_dashpots())
+      bind_dashpots(contacts);
+    deepest_ratio = 0.;
+    bound_search  = contacts.n_searches;
+  }
+
+  void BlockContacts::note_depth(const unsigned int pair, const double depth)
+  {
+    const double ratio = depth / near.weights()[pair].depth;
+    if (ratio > deepest_ratio)
+    {
+      deepest_ratio = ratio;
+      deepest_pair  = pair;
+    }
   }
 
   bool BlockContacts::begin_contact(ContactState &contacts,
@@ -97,7 +259,8 @@ namespace quoin
       return false;
 
     if (!is_heir)
-      with_law(set, [&](const auto &law) { begin_point(law, inherited); });
+      contact_laws.with_law(set, [&](const auto &law)
+                            { begin_point(law, inherited); });
     pair.set         = set;
     pair.shift_start = inherited.slip_offset;
     for (unsigned int k = 0; k < 2; ++k)
@@ -172,13 +335,14 @@ namespace quoin
       for (unsigned int k = 0; k < 2; ++k)
       {
         const ContactPoint &point = pair.points[k];
-        with_law(pair.set,
-                 [&](const auto &law)
-                 {
-                   energy += near.weights()[i].share * point.area
-                             * law.stored_energy(read_point(law, point),
-                                                 point.opening);
-                 });
+        contact_laws.with_law(
+            pair.set,
+            [&](const auto &law)
+            {
+              energy
+                  += near.weights()[i].share * point.area
+                     * law.stored_energy(read_point(law, point), point.opening);
+            });
       }
     }
     energies.joint += energy;
@@ -285,7 +449,7 @@ namespace quoin
       if (!is_there)
         continue;
       NearPairs::Geometry own;
-      if ((!is_open || dilates) && near.geometry(pair, i, own)
+      if ((!is_open || contact_laws.dilates()) && near.geometry(pair, i, own)
           && begin_contact(contacts, i, own))
         new_contacts.push_back(i);
       else
@@ -309,19 +473,19 @@ namespace quoin
             add_forces_under<lanes>(law, active, contacts, viscous_beta, damps,
                                     losses);
           },
-          laws[set]);
+          contact_laws.laws()[set]);
     };
-    if (laws.size() == 1)
+    if (contact_laws.laws().size() == 1)
     {
       add(0, active_pairs);
       return;
     }
-    pairs_of_set.resize(laws.size());
+    pairs_of_set.resize(contact_laws.laws().size());
     for (std::vector<unsigned int> &list : pairs_of_set)
       list.clear();
     for (const unsigned int i : active_pairs)
       pairs_of_set[contacts.pairs[i].set].push_back(i);
-    for (unsigned int set = 0; set < laws.size(); ++set)
+    for (unsigned int set = 0; set < contact_laws.laws().size(); ++set)
       add(set, pairs_of_set[set]);
   }
 
@@ -506,8 +670,8 @@ namespace quoin
       for (unsigned int l = 0; l < n && found != all; ++l)
         if (~found >> l & 1)
         {
-          losses.contact
-              += near.weights()[pair[l]].share * release(pairs[pair[l]]);
+          losses.contact += near.weights()[pair[l]].share
+                            * contact_laws.release(pairs[pair[l]]);
           pairs[pair[l]].was_open = 0;
           contacts.marks[pair[l]] = PairMark::unseen;
         }
@@ -561,9 +725,9 @@ namespace quoin
   bool BlockContacts::has_dashpots() const
   {
     return dashpots.knows_blocks()
-           && std::any_of(dampings.begin(), dampings.end(),
-                          [](const JointDamping &damping)
-                          { return damping.acts(); });
+           && std::any_of(
+               contact_laws.dampings().begin(), contact_laws.dampings().end(),
+               [](const JointDamping &damping) { return damping.acts(); });
   }
 
   void BlockContacts::bind_dashpots(const ContactState &contacts)
@@ -592,7 +756,7 @@ namespace quoin
     for (const DashpotPoint &at : dashpot_points)
     {
       const ContactPair &pair     = contacts.pairs[at.pair];
-      const JointDamping &damping = dampings[pair.set];
+      const JointDamping &damping = contact_laws.dampings()[pair.set];
       if (!damping.acts() || at.area == 0.)
         continue;
       const auto &[a, b]   = near.edges_of(at.pair);
@@ -603,13 +767,13 @@ namespace quoin
           = { { v[0] * nx + v[1] * ny, v[0] * ny - v[1] * nx } };
       const auto times = dashpots.times(at.pair, damping, at.stiffness);
       std::array<double, 2> traction{};
-      with_law(pair.set,
-               [&](const auto &law)
-               {
-                 traction = dashpot_tractions(
-                     law, read_point(law, pair.points[at.k]), at.gap, rate,
-                     times);
-               });
+      contact_laws.with_law(pair.set,
+                            [&](const auto &law)
+                            {
+                              traction = dashpot_tractions(
+                                  law, read_point(law, pair.points[at.k]),
+                                  at.gap, rate, times);
+                            });
       const double sigma = at.area * traction[0], tau = at.area * traction[1];
       const double f[2] = { sigma * nx + tau * ny, sigma * ny - tau * nx };
       EdgeLanes<1> edge_a, edge_b;
@@ -620,5 +784,65 @@ namespace quoin
       moving.add_to_ends(PairFunctions<1>::end_forces(edge_a, edge_b, forces),
                          &a, &b, 1, compact_viscous.data());
     }
+  }
+
+  void BlockContacts::refuse_depth(const State<2> &state,
+                                   const double ratio) const
+  {
+    // The first rank that knows of it tells the others.
+    const unsigned int n
+        = dealii::Utilities::MPI::n_mpi_processes(exchange.communicator());
+    const unsigned int rank
+        = dealii::Utilities::MPI::this_mpi_process(exchange.communicator());
+    const unsigned int teller = dealii::Utilities::MPI::min(
+        deepest_ratio == ratio ? rank : n, exchange.communicator());
+    double told[5]{};
+    if (rank == teller)
+    {
+      const ContactPair &pair = state.get<ContactState>().pairs[deepest_pair];
+      const auto &edge = near.moving_edges()[near.edges_of(deepest_pair)[0]];
+      told[0]          = edges[pair.lower].block;
+      told[1]          = edges[pair.upper].block;
+      told[2]          = edge.x;
+      told[3]          = edge.y;
+      told[4]          = ratio * near.weights()[deepest_pair].depth;
+    }
+    MPI_Bcast(told, 5, MPI_DOUBLE, teller, exchange.communicator());
+    std::ostringstream message;
+    message << "blocks " << told[0] << " and " << told[1] << " overlap by "
+            << told[4] << " m near (" << told[2] << ", " << told[3]
+            << ") m, at time " << state.time << " s, step " << state.step
+            << ", more than 'Contact/Deepest overlap = " << parameters.deepest
+            << "' of the cells there. The usual causes are contacts too soft "
+               "for the load or the impact (raise 'Normal stiffness'), a time "
+               "step too long (lower 'Share of critical time step'), or "
+               "blocks that overlap in the mesh. The last checkpoint is kept.";
+    throw RunError(message.str());
+  }
+
+  void BlockContacts::refuse_speed(const State<2> &state, const double speed,
+                                   const double dt) const
+  {
+    unsigned int fast = NodeMap<2>::none;
+    for (const unsigned int i : edges.boundary_nodes())
+    {
+      const dealii::Tensor<1, 2> &v = state.velocity[i];
+      if (std::sqrt(v[0] * v[0] + v[1] * v[1]) >= speed)
+        fast = std::min(fast, i);
+    }
+    dealii::Point<2> p;
+    unsigned int block = 0;
+    if (!first_point(node_map, fast, p, &block)) // the root was rounded
+      p = point_of_block(node_map, block);       // otherwise than here
+    std::ostringstream message;
+    message << "block " << block << ", at rest at (" << p[0] << ", " << p[1]
+            << ") m, moves at " << speed << " m/s, that is " << speed * dt
+            << " m a step at time " << state.time << " s, step " << state.step
+            << ": so fast that it would pass through others, whose skin is "
+            << search.skin().largest()
+            << " m. If nothing should move like that, the run is unstable: "
+               "lower 'Share of critical time step' and look at the last "
+               "fields. The last checkpoint is kept.";
+    throw RunError(message.str());
   }
 } // namespace quoin

@@ -62,7 +62,8 @@ namespace quoin
   std::vector<std::uint8_t> sets_on_blocks(const Model<2> &model)
   {
     const BlockContacts *contacts = model.contacts();
-    return contacts ? contacts->sets_on_blocks()
-                    : sets_on_blocks(model.joints(), model.nodes());
+    return contacts
+               ? contacts->laws().sets_on_blocks(model.joints(), model.nodes())
+               : sets_on_blocks(model.joints(), model.nodes());
   }
 } // namespace quoin

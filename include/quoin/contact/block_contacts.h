@@ -8,20 +8,18 @@
 #include <quoin/contact/contact_state.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/joint_elements/matched_joints.h>
-#include <quoin/contact/contact_skin.h>
+#include <quoin/contact/contact_laws.h>
 #include <quoin/contact/near_pairs.h>
+#include <quoin/contact/pair_search.h>
 #include <quoin/joint_elements/pair_dashpots.h>
 #include <quoin/joint_laws/joint_parameters.h>
 
 #include <array>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace quoin
 {
-  struct EdgeEnds;
-
   /** What contacts are made of, beside the mesh. */
   struct ContactModel
   {
@@ -110,16 +108,18 @@ namespace quoin
         std::vector<NodeStiffness<2>> &stiffness) const override;
     void add_damping_bound(const std::vector<double> &masses, double impedance,
                            DampingBound &bound) const override;
-    /** As sets_on_blocks() of joints, with sets that may act once the
-        block touches others: those of its joints and of new contacts of its
-        materials with any that are in the mesh. Collective. */
-    std::vector<std::uint8_t> sets_on_blocks() const;
-
     /** Other laws of the same joint sets, with the same stiffness, and other
         materials of the cell groups: what begins from now on follows their
         sets. */
     void set_properties(const std::vector<JointSetParameters> &sets,
-                        const std::vector<unsigned int> &material_of_group);
+                        const std::vector<unsigned int> &material_of_group)
+    {
+      contact_laws.set_properties(sets, material_of_group);
+    }
+    const ContactLaws &laws() const
+    {
+      return contact_laws;
+    }
 
     /** Sets what dashpots need, without which there are none. */
     void set_blocks(const DashpotBlocks &blocks)
@@ -159,32 +159,7 @@ namespace quoin
     }
 
   private:
-    /** Calls @p use with the law of a set, of its own type. */
-    template <typename Use>
-    void with_law(const unsigned int set, const Use &use) const
-    {
-      // The usual law in line: a visit calls through a table.
-      if (const auto *coulomb = std::get_if<CoulombLaw>(&laws[set]))
-        use(*coulomb);
-      else
-        std::visit(use, laws[set]);
-    }
-    void find_set_of_materials(const std::vector<JointSetParameters> &sets);
     void check(State<2> &state, double dt);
-    /** @p rate: by what edges may have approached in a step since the last
-        search [m]. */
-    void search(State<2> &state, double rate);
-    /** The pairs within the skin and by how much contacts are @p apart [m], by
-        their places in @p ends; sets the skin. */
-    std::vector<std::array<unsigned int, 2>>
-    find_pairs(const std::vector<EdgeEnds> &ends, double apart, double rate,
-               ContactState &contacts) const;
-    bool is_matched(const ContactState &contacts, unsigned int a,
-                    unsigned int b) const;
-    ContactPair new_pair(const EdgeEnds &a, const EdgeEnds &b) const;
-    void inherit_shifts(ContactState &contacts) const;
-    /** Counts slip from where the edges touch now. */
-    void reanchor(ContactState &contacts) const;
     /** Prepares for the pairs at hand. */
     void bind(const ContactState &contacts);
     /** What a step loses [J]. */
@@ -228,9 +203,6 @@ namespace quoin
     bool find_parent(const ContactState &contacts, unsigned int pair,
                      unsigned int &set, ContactPoint &inherited,
                      double &deepest) const;
-    /** Forgets the history; returns the energy that it stored [J]. */
-    double release(ContactPair &pair) const;
-
     void note_depth(unsigned int pair, double depth);
     [[noreturn]] void refuse_depth(const State<2> &state, double ratio) const;
     [[noreturn]] void refuse_speed(const State<2> &state, double speed,
@@ -243,13 +215,8 @@ namespace quoin
     const ContactParameters parameters;
     const Thickness thickness;
     NearPairs near;
-    const ContactSkin skin;
-    std::vector<JointLaw> laws;         /**< of each set */
-    std::vector<JointDamping> dampings; /**< the same */
-    bool dilates = false;               /**< a set does */
-    std::vector<std::string> materials;
-    std::vector<unsigned int> material_of_group;
-    std::vector<unsigned int> set_of_materials; /**< square table */
+    ContactLaws contact_laws;
+    PairSearch search;
 
     std::uint64_t bound_search = -1; /**< search whose pairs are at hand */
     const unsigned int n_lanes;

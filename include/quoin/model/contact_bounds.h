@@ -26,7 +26,7 @@ namespace quoin
                                std::vector<std::uint8_t> is_held);
 
   /** sets_on_blocks() of the joints or, if blocks may meet anywhere,
-      BlockContacts::sets_on_blocks(). Collective. */
+      ContactLaws::sets_on_blocks(). Collective. */
   std::vector<std::uint8_t> sets_on_blocks(const Model<2> &model);
 } // namespace quoin
 
