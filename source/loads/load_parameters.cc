@@ -547,7 +547,7 @@ namespace quoin
         load.in_situ.emplace().enter(entries);
     }
 
-    void enter(ParameterEntries &entries, LoadParameters &load)
+    void enter_load(ParameterEntries &entries, LoadParameters &load)
     {
       enter_place(entries, load);
       enter_directions(entries, load);
@@ -590,13 +590,13 @@ namespace quoin
 
   void LoadParameters::declare(dealii::ParameterHandler &prm)
   {
-    declare_entries(prm, enter);
+    declare_entries(prm, enter_load);
   }
 
   LoadParameters LoadParameters::read(const ParameterSection &section,
                                       const std::string &name)
   {
-    LoadParameters load = read_entries(section, enter);
+    LoadParameters load = read_entries(section, enter_load);
     load.name           = name;
     return load;
   }
