@@ -35,7 +35,7 @@ namespace quoin
   {
     JointTangent<dim> tangent;
     std::array<double, 2> stiffness; /**< kn, ks of the moment [Pa/m] */
-    double slip_by_pressure;         /**< derivative in the law [m/Pa] */
+    Slip<dim> slip_by_pressure;      /**< derivative in the law [m/Pa] */
     double plastic_opening;          /**< increment [m] */
     Slip<dim> plastic_slip;          /**< increment [m] */
     double opens;                    /**< sign_of_growth() of these */

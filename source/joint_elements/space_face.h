@@ -15,19 +15,6 @@ namespace quoin
   {
     using Vector = dealii::Tensor<1, 3>;
 
-    /** Calls @p use with the law of its own type, which works in space. */
-    template <typename Use>
-    void visit_law(const Use &use, const JointLaw &law)
-    {
-      std::visit(
-          [&](const auto &own)
-          {
-            if constexpr (std::decay_t<decltype(own)>::has_slip_vector)
-              use(own);
-          },
-          law);
-    }
-
     /** From the position of @p a to that of @p b. Differences of X and of u
         are taken apart, so that small displacements keep their digits. */
     inline Vector between(const NodeRecord<3> &a, const NodeRecord<3> &b)

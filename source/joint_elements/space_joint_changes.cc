@@ -40,7 +40,7 @@ namespace quoin
               xy * frame.n[0] + yy * frame.n[1] + yz * frame.n[2],
               xz * frame.n[0] + yz * frame.n[1] + zz * frame.n[2] });
         const SpaceJointGap parts = components(frame, traction);
-        visit_law(
+        std::visit(
             [&](const auto &law)
             {
               auto point = read_point(law, history, 3 * i + k);
@@ -58,7 +58,7 @@ namespace quoin
   {
     double n = 0.;
     for (unsigned int p = 0; p < joints.n_points(); ++p)
-      visit_law(
+      std::visit(
           [&](const auto &law)
           {
             if (!law.holds(read_point(law, history, p)))
@@ -107,7 +107,7 @@ namespace quoin
     SpaceJointHistory &history = state.get<SpaceJointHistory>();
     history.detached[i]        = 0;
     const auto gaps            = joint_gaps(face, state.nodes.data());
-    visit_law(
+    std::visit(
         [&](const auto &law)
         {
           for (unsigned int k = 0; k < 3; ++k)
@@ -129,7 +129,7 @@ namespace quoin
       if (history.detached[i])
         continue;
       const auto gaps = joint_gaps(joints.faces()[i], state.nodes.data());
-      visit_law(
+      std::visit(
           [&](const auto &law)
           {
             for (unsigned int k = 0; k < 3; ++k)

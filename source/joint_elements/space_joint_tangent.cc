@@ -226,7 +226,8 @@ namespace quoin
           for (unsigned int a = 0; a < 2; ++a)
             growth += point.slips[a]
                       * (gap[1 + a].fastAccessDx(j)
-                         - change[1 + a] / point.stiffness[1]);
+                         - change[1 + a] / point.stiffness[1]
+                         - point.slip_by_pressure[a] * change[0]);
           inelastic_gradient[j] += area * growth;
         }
       }
@@ -282,7 +283,7 @@ namespace quoin
         slip[0] = gap[1];
         slip[1] = gap[2];
         JointResponse<3> point;
-        visit_law(
+        std::visit(
             [&](const auto &law)
             {
               point = respond<3>(
@@ -337,7 +338,7 @@ namespace quoin
   {
     double excess = 0.;
     if (!history.detached[p / 3])
-      visit_law(
+      std::visit(
           [&](const auto &law)
           {
             if constexpr (std::decay_t<decltype(law)>::is_brittle)

@@ -143,9 +143,9 @@ namespace quoin
     SpaceJointHistory &history = state.add<SpaceJointHistory>();
     history.resize(all_faces.size(), most);
     for (unsigned int p = 0; p < n_points(); ++p)
-      visit_law([&](const auto &law)
-                { write_point(SpacePointOf<decltype(law)>(), history, p); },
-                all_laws[all_faces[p / 3].set]);
+      std::visit([&](const auto &law)
+                 { write_point(SpacePointOf<decltype(law)>(), history, p); },
+                 all_laws[all_faces[p / 3].set]);
   }
 
   void SpaceJoints::add_forces(const StepContext &step, State<3> &state,
@@ -200,9 +200,9 @@ namespace quoin
     // Summed apart: a step's share is small beside the account.
     EnergyAccounts lost;
     for (unsigned int set = 0; set < all_laws.size(); ++set)
-      visit_law([&](const auto &law)
-                { add_set_forces(set, law, nodes, history, lost, force); },
-                all_laws[set]);
+      std::visit([&](const auto &law)
+                 { add_set_forces(set, law, nodes, history, lost, force); },
+                 all_laws[set]);
     energy += lost;
   }
 
@@ -213,7 +213,7 @@ namespace quoin
                                        dealii::Tensor<1, 3> *force) const
   {
     for (unsigned int i = 0; i < all_faces.size(); ++i)
-      visit_law(
+      std::visit(
           [&](const auto &law)
           {
             add_rate_forces(
@@ -273,7 +273,7 @@ namespace quoin
         continue;
       const SpaceJointFace &face = all_faces[i];
       const auto gaps            = joint_gaps(face, state.nodes.data());
-      visit_law(
+      std::visit(
           [&](const auto &law)
           {
             for (unsigned int k = 0; k < 3; ++k)
@@ -319,7 +319,7 @@ namespace quoin
   {
     std::vector<std::string> names;
     for (const JointLaw &law : joints.laws())
-      visit_law(
+      std::visit(
           [&](const auto &own)
           {
             for (const auto &field : own.template fields<3>())
@@ -335,7 +335,7 @@ namespace quoin
                    const unsigned int p, const SpaceJointHistory &history)
   {
     double value = 0.;
-    visit_law(
+    std::visit(
         [&](const auto &law)
         {
           for (const auto &field : law.template fields<3>())

@@ -131,22 +131,12 @@ namespace quoin
     return weak;
   }
 
-  void BartonBandisLaw::initialise(RockPoint &point, const double normal,
-                                   const double shear) const
+  double BartonBandisLaw::mobilising_slip(const double tau,
+                                          const double traction) const
   {
-    const double traction = std::max(0., -normal);
-    const double tau      = traction > 0. ? shear : 0.;
-    point.normal_traction = -traction;
-    point.shear_traction  = tau;
-    point.plastic_opening = closure.closure(traction);
-    point.plastic_slip    = -tau / stiffness;
-    point.worn_slip       = 0.;
-    if (tau == 0.)
-      return;
-
     // The rising branch of the mobilisation, turned round.
     using Table          = RoughnessTable;
-    const double angle   = std::atan(divisor * std::abs(tau) / traction);
+    const double angle   = std::atan(divisor * tau / traction);
     const double peak    = peak_roughness(traction);
     const double excess  = angle - residual_angle;
     constexpr double top = 1.;
@@ -164,7 +154,6 @@ namespace quoin
           break;
         }
     slip *= 1. + 1e-9; // so that rounding does not make it slip
-    point.worn_slip
-        = std::max(0., slip * peak_slip - std::abs(tau) / stiffness);
+    return slip * peak_slip;
   }
 } // namespace quoin

@@ -114,15 +114,4 @@ namespace quoin
     weak.residual_angle          = std::atan(std::tan(residual_angle) / factor);
     return weak;
   }
-
-  void ContinuouslyYieldingLaw::initialise(RockPoint &point,
-                                           const double normal,
-                                           const double shear) const
-  {
-    const double traction = std::max(0., -normal);
-    point.normal_traction = -traction;
-    point.shear_traction  = traction > 0. ? shear : 0.;
-    point.plastic_opening = closure.closure(traction);
-    point.plastic_slip    = -point.shear_traction / shear_stiffness(traction);
-  }
 } // namespace quoin

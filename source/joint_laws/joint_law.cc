@@ -57,11 +57,4 @@ namespace quoin
     return std::visit(
         [=](const auto &own) -> JointLaw { return own.reduced(factor); }, law);
   }
-
-  bool works_in_space(const JointLaw &law)
-  {
-    return std::visit([](const auto &own)
-                      { return std::decay_t<decltype(own)>::has_slip_vector; },
-                      law);
-  }
 } // namespace quoin

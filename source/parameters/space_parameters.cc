@@ -49,9 +49,6 @@ namespace quoin
       for (const JointSetParameters &set : parameters.model.joints)
       {
         const std::string section = "section 'Joints/" + set.name + "': ";
-        refusals.refuse_if(!works_in_space(set.law), section + "this 'Law'",
-                           "Take 'Coulomb', 'elastic', 'no tension', "
-                           "'composite' or 'slip weakening'.");
         refusals.refuse_if(set.damping.acts(), section + "a dashpot",
                            "Leave the damping of joints out, or damp the stage "
                            "by 'Damping = Rayleigh' with a stiffness "

@@ -1224,6 +1224,43 @@ def volumes(grid):
     return np.abs(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)) / 6
 
 
+def space_cube(case, folder, output, histories):
+    """The frequency of a cube's vibration relative to the formula's, that with
+    which the difference of kinetic and strain energy beats best fitted; and by
+    how much the order in which it converges, from a mesh of edges twice as
+    long, falls short of 2. And the residual of the energy balance."""
+    exact = reference_module(folder)
+    ratios = 1 + np.linspace(-0.02, 0.02, 4001)
+
+    def error(table):
+        beat = ((table["strain"] - table["kinetic"])
+                / (table["strain"] + table["kinetic"]))
+        wanted = np.cos(2 * exact.OMEGA * np.outer(ratios, table["time"]))
+        return abs(ratios[np.argmin(np.sum((wanted - beat)**2, axis=1))] - 1)
+
+    coarse = os.path.join(output, "coarse")
+    run(case["quoin"], os.path.join(folder, "case.prm"), coarse,
+        ["Mesh/File=coarse.geo"])
+    fine = error(energies(output))
+    order = float(np.log2(error(energies(coarse)) / fine))
+    return {"frequency": float(fine), "2 - order": max(0.0, 2 - order),
+            **energy_residual(case, folder, output, histories)}
+
+
+def polarised_slip(case, folder, output, histories):
+    """Slip and velocities across the polarisation of a wave, relative to those
+    along it; and the residual of the energy balance."""
+    angle = np.radians(case["angle"])
+    across = 0.0
+    for name in ("slip_%s", "v%s_below", "v%s_above"):
+        x, y = (histories[name % axis] for axis in "xy")
+        along = np.max(np.abs(np.cos(angle) * x + np.sin(angle) * y))
+        across = max(across, float(np.max(np.abs(
+            np.cos(angle) * y - np.sin(angle) * x)) / along))
+    return {"across": across,
+            **energy_residual(case, folder, output, histories)}
+
+
 def space_sphere(case, folder, output, histories):
     """Displacements of the wall of a spherical cavity at the end of each stage,
     relative to the formula's; the core is gone from the fields."""

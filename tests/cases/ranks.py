@@ -70,6 +70,8 @@ COLLAPSING = ["Materials/block/Law=linear elastic",
               "Histories/moved/Quantity=displacement x",
               "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 BARS = os.path.join(common.ROOT, "tests", "cases", "bars.prm")
+ROUGH = os.path.join(common.VERIFICATION, "space_rock_joints",
+                     "barton_bandis.prm")
 SPACE_YIELDING = ["Materials/rock/Law=Mohr-Coulomb",
                   "Materials/rock/Cohesion=1e6",
                   "Materials/rock/Friction angle=30",
@@ -193,6 +195,13 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                "Stages/slide/Rayleigh stiffness "
                                "coefficient=1e-6",
                                "Output/Field interval=0.1"]),
+            # rock joints that remember more, by both solvers
+            "space, rock joint": (ROUGH, ["Stages/shear/Duration=0.3"]),
+            "implicit, space, rock joint": (
+                ROUGH, ["Solver=implicit", "Stages/shear/Duration=0.3",
+                        "Implicit/First step=0.01",
+                        "Implicit/Largest step=0.01",
+                        "Implicit/Force ratio=1e-11"]),
             # a crack inside a block of tetrahedra in several ranks
             "space, crack": (os.path.join(common.VERIFICATION, "space_crack",
                                           "case.prm"),

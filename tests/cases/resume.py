@@ -47,6 +47,11 @@ CASES = {
                                    "case.prm"),
                       ["Output/Checkpoint interval=0.02",
                        "Output/Field interval=0.1"], 2, 2),
+    # a rock joint whose slip turns
+    "space, rock joint": (os.path.join(common.VERIFICATION,
+                                       "space_rock_joints",
+                                       "continuously_yielding.prm"),
+                          ["Output/Checkpoint interval=0.05"], 2, 2),
     # rock that yields around what is excavated, under initial stress
     "space, excavation": (os.path.join(common.VERIFICATION, "space_tunnel",
                                        "case.prm"),

@@ -69,6 +69,7 @@ CASES = {
     "bars": of_ranks("bars", ALL),
     "implicit, bars": of_ranks("implicit, bars", UP),
     "space, joints": of_ranks("space, joints", ALL),
+    "space, rock joint": of_ranks("space, rock joint", ALL),
     "space, crack": of_ranks("space, crack", UP),
     "space, excavation": of_ranks("space, excavation", UP),
     "static far field": of_ranks("static far field", ALL),

@@ -85,7 +85,9 @@ namespace quoin
    *
    * Below the strength tau = ks (u_s - p). Slip away from the origin dilates by
    * the angle i m/2; slip back closes the joint by that angle until it has
-   * taken back what it had dilated. An open joint transfers nothing.
+   * taken back what it had dilated. Where slip is a vector, it goes along tau,
+   * and its component along u_s is what dilates or closes, so that slip round
+   * the origin does neither. An open joint transfers nothing.
    */
   struct BartonBandisLaw : RockLaw<BartonBandisLaw>
   {
@@ -139,27 +141,37 @@ namespace quoin
                     Number &dilation) const;
 
     /** See find_step(). */
-    template <typename Number>
-    RockFlow<Number> flow(const RockPoint &point, const Number &closure,
-                          const Number &slip) const;
+    template <int dim, typename Number>
+    RockFlow<dim, Number> flow(const RockPoint<dim> &point,
+                               const Number &closure,
+                               const SlipOf<dim, Number> &slip) const;
 
     /**
      * Sets @p point to tractions [Pa] at rest, at zero opening and slip,
      * mobilised as far as these need: an offset of closure and slip.
      */
-    void initialise(RockPoint &point, double normal, double shear) const;
+    template <int dim>
+    void initialise(RockPoint<dim> &point, double normal,
+                    const Slip<dim> &shear) const;
 
     /** Whether @p point, at zero opening and slip, has admissible tractions; at
         rest they would come down to what it does bear if not. */
-    bool holds(RockPoint point) const
+    template <int dim>
+    bool holds(RockPoint<dim> point) const
     {
       constexpr double margin = 1e-6; // of what an iteration finds
-      const double sigma = point.normal_traction, tau = point.shear_traction;
-      update(point, 0., 0.);
+      const double sigma      = point.normal_traction;
+      const Slip<dim> tau     = point.shear_traction;
+      update(point, 0., Slip<dim>());
       return std::abs(point.normal_traction - sigma)
-                 + std::abs(point.shear_traction - tau)
-             <= margin * (std::abs(sigma) + std::abs(tau));
+                 + magnitude(point.shear_traction - tau)
+             <= margin * (std::abs(sigma) + magnitude(tau));
     }
+
+  private:
+    /** The slip [m] that mobilises the shear traction of the size @p tau under
+        the pressure @p traction [Pa], on the way to the peak. */
+    double mobilising_slip(double tau, double traction) const;
   };
 
   template <typename Number>
@@ -211,39 +223,56 @@ namespace quoin
     return traction * friction;
   }
 
-  template <typename Number>
-  RockFlow<Number> BartonBandisLaw::flow(const RockPoint &point,
-                                         const Number &closure_now,
-                                         const Number &slip) const
+  template <int dim, typename Number>
+  RockFlow<dim, Number>
+  BartonBandisLaw::flow(const RockPoint<dim> &point, const Number &closure_now,
+                        const SlipOf<dim, Number> &slip) const
   {
-    using std::abs;
-    RockFlow<Number> result;
-    const Number trial = stiffness * (slip - point.plastic_slip);
+    RockFlow<dim, Number> result;
+    result.plastic_slip   = constant_slip<dim, Number>(point.plastic_slip);
+    result.shear_traction = Number(stiffness) * (slip - result.plastic_slip);
+    const SlipOf<dim, Number> trial = result.shear_traction;
+    const Number size               = magnitude(trial);
     Number dilation;
-    const Number limit
-        = strength(closure.traction(closure_now),
-                   point.worn_slip + abs(trial) / stiffness, dilation);
-    result.shear_traction = trial;
-    result.plastic_slip   = point.plastic_slip;
-    if (value_of(abs(trial)) <= value_of(limit))
+    const Number limit = strength(closure.traction(closure_now),
+                                  point.worn_slip + size / stiffness, dilation);
+    if (value_of(size) <= value_of(limit))
       return result;
 
-    const double direction = value_of(trial) < 0. ? -1. : 1.;
-    result.slips           = true;
-    result.wear            = (abs(trial) - limit) / stiffness;
-    result.shear_traction  = direction * limit;
-    result.plastic_slip    = point.plastic_slip + direction * result.wear;
-    result.opening         = dilation * result.wear;
-    if (direction * value_of(slip) >= 0.)
+    const auto direction  = direction_of(trial);
+    const auto away       = cosine(direction, slip);
+    result.slips          = true;
+    result.wear           = (size - limit) / stiffness;
+    result.shear_traction = limit * direction;
+    result.plastic_slip   = result.plastic_slip + result.wear * direction;
+    result.opening        = away * dilation * result.wear;
+    if (value_of(away) >= 0.)
       return result;
     // Back down: no farther than it came up, nor than it is closed.
-    Number back = result.opening;
+    Number back = -result.opening;
     if (value_of(back) > point.dilated)
       back = point.dilated;
     if (value_of(back) > value_of(closure_now))
       back = closure_now;
     result.opening = -back;
     return result;
+  }
+
+  template <int dim>
+  void BartonBandisLaw::initialise(RockPoint<dim> &point, const double normal,
+                                   const Slip<dim> &shear) const
+  {
+    const double traction = std::max(0., -normal);
+    const Slip<dim> tau   = traction > 0. ? shear : Slip<dim>();
+    const double size     = magnitude(tau);
+    point.normal_traction = -traction;
+    point.shear_traction  = tau;
+    point.plastic_opening = closure.closure(traction);
+    point.plastic_slip    = -tau / stiffness;
+    point.worn_slip       = 0.;
+    if (size > 0.)
+      point.worn_slip
+          = std::max(0., mobilising_slip(size, traction) - size / stiffness);
   }
 } // namespace quoin
 

@@ -101,9 +101,12 @@ namespace quoin
    * phi_m0 - phi.
    *
    * Slip against the traction unloads: it is elastic, F = 1, and beyond zero
-   * loading begins with r = 0. tau stays where the pressure changes ks(s);
-   * what that changes of tau^2/(2 ks) is booked as friction, either way. An
-   * open joint transfers nothing.
+   * loading begins with r = 0. Where slip is a vector, these rates are those of
+   * the size of tau by the component of slip along it; across it the joint is
+   * elastic, by which tau turns, and unloads until it slips straight across
+   * tau, with r that of the size there. tau stays where the pressure changes
+   * ks(s); what that changes of tau^2/(2 ks) is booked as friction, either way.
+   * An open joint transfers nothing.
    */
   struct ContinuouslyYieldingLaw : RockLaw<ContinuouslyYieldingLaw>
   {
@@ -140,21 +143,32 @@ namespace quoin
       return stiffness.at(stiffness.highest);
     }
 
-    double slip_by_pressure(const RockPoint &point) const
+    template <int dim>
+    Slip<dim> slip_by_pressure(const RockPoint<dim> &point) const
     {
-      const DualNumber ks
-          = stiffness.at(DualNumber(-point.normal_traction, -1., 0.));
-      return -point.shear_traction * ks.by[0] / (ks.value * ks.value);
+      const DualNumber<1> ks
+          = stiffness.at(DualNumber<1>(-point.normal_traction, 0, -1.));
+      return -point.shear_traction * (ks.by[0] / (ks.value * ks.value));
     }
 
     /** See find_step(). */
-    template <typename Number>
-    RockFlow<Number> flow(const RockPoint &point, const Number &closure,
-                          const Number &slip) const;
+    template <int dim, typename Number>
+    RockFlow<dim, Number> flow(const RockPoint<dim> &point,
+                               const Number &closure,
+                               const SlipOf<dim, Number> &slip) const;
 
     /** Sets @p point to tractions [Pa] at rest, at zero opening and slip: an
         offset of closure and slip. */
-    void initialise(RockPoint &point, double normal, double shear) const;
+    template <int dim>
+    void initialise(RockPoint<dim> &point, const double normal,
+                    const Slip<dim> &shear) const
+    {
+      const double traction = std::max(0., -normal);
+      point.normal_traction = -traction;
+      point.shear_traction  = traction > 0. ? shear : Slip<dim>();
+      point.plastic_opening = closure.closure(traction);
+      point.plastic_slip    = -point.shear_traction / shear_stiffness(traction);
+    }
 
     /** phi_m [rad] after @p worn slip [m]. */
     template <typename Number>
@@ -167,114 +181,112 @@ namespace quoin
 
     /** Whether the tractions of @p point are admissible; otherwise slip would
        lower them. */
-    bool holds(const RockPoint &point) const
+    template <int dim>
+    bool holds(const RockPoint<dim> &point) const
     {
       constexpr double margin = 1e-9;
-      return std::abs(point.shear_traction)
+      return magnitude(point.shear_traction)
              <= -(1. + margin) * point.normal_traction
                     * std::tan(bounding_angle(point.worn_slip));
     }
 
   private:
     /** flow() under a given strength: tractions and slips alone. */
+    template <int dim, typename Number>
+    RockFlow<dim, Number> load(const RockPoint<dim> &point,
+                               const Number &strength, const Number &ks,
+                               const SlipOf<dim, Number> &slip) const;
+
+    /** The size that a shear traction of the size @p tau grows to, loaded by
+        the elastic increment @p growth [Pa]. */
     template <typename Number>
-    RockFlow<Number> load(const RockPoint &point, const Number &strength,
-                          const Number &ks, const Number &slip) const;
+    static Number loaded(Number tau, Number growth, const Number &strength,
+                         const Number &reload);
   };
 
   template <typename Number>
-  RockFlow<Number>
-  ContinuouslyYieldingLaw::load(const RockPoint &point, const Number &strength,
-                                const Number &ks, const Number &slip) const
+  Number ContinuouslyYieldingLaw::loaded(Number tau, Number growth,
+                                         const Number &strength,
+                                         const Number &reload)
   {
-    using std::abs;
     using std::exp;
-    RockFlow<Number> result;
-    const double ks_old  = shear_stiffness(-point.normal_traction);
-    const double elastic = point.shear_traction / ks_old;
-    const Number moved   = slip - (point.plastic_slip + elastic);
-    const double sense   = value_of(moved) < 0. ? -1. : 1.;
-    Number way           = sense * moved;
-
-    Number tau  = sense * point.shear_traction; // along the slip
-    Number worn = 0.;
-
-    Number reload = point.reload;
-    if (value_of(tau) < 0.)
+    // Elastic as long as F would be above 1.
+    const Number stiff = reload * strength - tau;
+    if (value_of(stiff) > value_of(growth))
+      return tau + growth;
+    if (value_of(stiff) > 0.)
     {
-      const Number left = -tau / ks;
-      if (value_of(way) <= value_of(left))
-      {
-        tau += ks * way;
-        way = 0.;
-        if (value_of(strength) > 0.)
-          reload = -tau / strength;
-        if (value_of(reload) > largest_reload)
-          reload = largest_reload;
-      }
-      else
-      {
-        way -= left;
-        tau    = 0.;
-        reload = 0.;
-      }
+      tau += stiff;
+      growth -= stiff;
     }
-    if (value_of(way) > 0.)
+    if (value_of(strength) > 0.)
+      return strength
+             - (strength - tau) * exp(-growth / (strength * (1. - reload)));
+    return 0.;
+  }
+
+  template <int dim, typename Number>
+  RockFlow<dim, Number>
+  ContinuouslyYieldingLaw::load(const RockPoint<dim> &point,
+                                const Number &strength, const Number &ks,
+                                const SlipOf<dim, Number> &slip) const
+  {
+    RockFlow<dim, Number> result;
+    const double ks_old = shear_stiffness(-point.normal_traction);
+    const auto before   = constant_slip<dim, Number>(point.shear_traction);
+    const auto moved    = slip
+                       - constant_slip<dim, Number>(
+                           point.plastic_slip + point.shear_traction / ks_old);
+    const SlipOf<dim, Number> trial = before + ks * moved;
+    const Number size               = magnitude(trial);
+    Number tau                      = magnitude(before);
+    result.shear_traction           = trial;
+    result.reload                   = point.reload;
+
+    bool is_loaded = value_of(size) > 0.;
+    if (value_of(before * moved) < 0.)
     {
-      const Number begin  = way;
-      const Number before = tau;
-      // Elastic as long as F would be above 1.
-      const Number stiff = reload * strength - tau;
-      if (value_of(stiff) > value_of(ks * way))
-      {
-        tau += ks * way;
-        way = 0.;
-      }
-      else if (value_of(stiff) > 0.)
-      {
-        tau += stiff;
-        way -= stiff / ks;
-      }
-      if (value_of(way) > 0.)
-      {
-        if (value_of(strength) > 0.)
-          tau = strength
-                - (strength - tau)
-                      * exp(-(ks * way) / (strength * (1. - reload)));
-        else
-          tau = 0.;
-      }
-      const Number plastic = begin - (tau - before) / ks;
-      worn += plastic;
-      result.slips = value_of(plastic) > 0.5 * value_of(begin);
+      is_loaded     = value_of(trial * moved) > 0.;
+      tau           = is_loaded ? distance_of_line(before, moved) : size;
+      result.reload = 0.;
+      if (value_of(strength) > 0.)
+        result.reload = tau / strength;
+      if (value_of(result.reload) > largest_reload)
+        result.reload = largest_reload;
     }
-    result.shear_traction = sense * tau;
-    result.plastic_slip   = slip - result.shear_traction / ks;
-    result.wear           = worn;
-    result.reload         = reload;
+    if (is_loaded)
+    {
+      const Number growth   = size - tau;
+      const Number reached  = loaded(tau, growth, strength, result.reload);
+      result.shear_traction = reached * direction_of(trial);
+      result.wear           = (size - reached) / ks;
+      result.slips          = value_of(growth) > 0.
+                     && value_of(size - reached) > 0.5 * value_of(growth);
+    }
+    result.plastic_slip = slip - result.shear_traction / ks;
     return result;
   }
 
-  template <typename Number>
-  RockFlow<Number> ContinuouslyYieldingLaw::flow(const RockPoint &point,
-                                                 const Number &closure_now,
-                                                 const Number &slip) const
+  template <int dim, typename Number>
+  RockFlow<dim, Number>
+  ContinuouslyYieldingLaw::flow(const RockPoint<dim> &point,
+                                const Number &closure_now,
+                                const SlipOf<dim, Number> &slip) const
   {
-    using std::abs;
     using std::atan;
-    using std::exp;
     using std::tan;
     const Number traction = closure.traction(closure_now);
     const Number ks       = stiffness.at(traction);
 
     // By the wear in the middle of the step.
     const Number first
-        = load(point, traction * tan(bounding_angle(Number(point.worn_slip))),
+        = load(point,
+               Number(traction * tan(bounding_angle(Number(point.worn_slip)))),
                ks, slip)
               .wear;
-    Number angle = bounding_angle(Number(point.worn_slip + 0.5 * first));
-    RockFlow<Number> result = load(point, traction * tan(angle), ks, slip);
-    const Number tau        = abs(result.shear_traction);
+    Number angle     = bounding_angle(Number(point.worn_slip + 0.5 * first));
+    auto result      = load(point, Number(traction * tan(angle)), ks, slip);
+    const Number tau = magnitude(result.shear_traction);
     if (value_of(tau) >= value_of(traction) * std::tan(initial_angle))
     {
       if (value_of(traction) > 0.)

@@ -62,9 +62,6 @@ namespace quoin
   /** Whether kn and ks grow with the pressure, from less than the bound. */
   bool stiffens(const JointLaw &law);
 
-  /** Whether the law is one of three dimensions, too. */
-  bool works_in_space(const JointLaw &law);
-
   /** Whether the joint may open or slip. */
   bool can_fail(const JointLaw &law);
 

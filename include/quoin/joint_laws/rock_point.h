@@ -4,8 +4,7 @@
 #ifndef quoin_joint_laws_rock_point_h
 #define quoin_joint_laws_rock_point_h
 
-#include <quoin/joint_laws/dual_number.h>
-#include <quoin/joints/joint_point.h>
+#include <quoin/joint_laws/dual_slip.h>
 
 #include <algorithm>
 #include <array>
@@ -17,11 +16,12 @@ namespace quoin
   class LawEntries;
 
   /**
-   * One point of a rock joint in two dimensions. It is closed by V =
-   * plastic_opening - opening, from which the normal traction follows, never
-   * tension; the shear traction is ks (slip - plastic_slip).
+   * One point of a rock joint. It is closed by V = plastic_opening - opening,
+   * from which the normal traction follows, never tension; the shear traction
+   * is ks (slip - plastic_slip).
    */
-  struct RockPoint : JointPoint<2>
+  template <int dim>
+  struct RockPoint : JointPoint<dim>
   {
     double worn_slip = 0.; /**< sum of |dp| while closed [m] */
     double dilated   = 0.; /**< part of w that reverse slip recovers [m] */
@@ -32,23 +32,23 @@ namespace quoin
   };
 
   /** Shear response of a point with known closure. */
-  template <typename Number>
+  template <int dim, typename Number>
   struct RockFlow
   {
-    Number shear_traction = 0.; /**< [Pa] */
-    Number plastic_slip   = 0.; /**< p at the end [m] */
-    Number opening        = 0.; /**< increment of w, dilation [m] */
-    Number wear           = 0.; /**< increment of worn_slip [m] */
-    Number reload         = 0.; /**< RockPoint::reload at the end */
-    bool slips            = false;
+    SlipOf<dim, Number> shear_traction{}; /**< [Pa] */
+    SlipOf<dim, Number> plastic_slip{};   /**< p at the end [m] */
+    Number opening = 0.;                  /**< increment of w, dilation [m] */
+    Number wear    = 0.;                  /**< increment of worn_slip [m] */
+    Number reload  = 0.;                  /**< RockPoint::reload at the end */
+    bool slips     = false;
   };
 
   /** Updated variables of a point. */
-  template <typename Number>
+  template <int dim, typename Number>
   struct RockStep
   {
     Number closure = 0.; /**< V [m]; negative: it is open */
-    RockFlow<Number> flow;
+    RockFlow<dim, Number> flow;
     bool is_coupled = false; /**< flow is that at V, not at V0 */
   };
 
@@ -62,14 +62,16 @@ namespace quoin
    *
    * @p Law: see RockLaw.
    */
-  template <typename Law>
-  RockStep<double> find_step(const Law &law, const RockPoint &point,
-                             const double opening, const double slip)
+  template <typename Law, int dim>
+  RockStep<dim, double> find_step(const Law &law, const RockPoint<dim> &point,
+                                  const double opening, const Slip<dim> &slip)
   {
+    using Dual                   = DualNumber<dim>;
     constexpr double least_slope = 0.1;
+    const auto constant          = constant_slip<dim, Dual>(slip);
     const double start           = point.plastic_opening - opening;
     double low                   = std::max(start, 0.);
-    RockStep<double> step{ 0., law.flow(point, low, slip) };
+    RockStep<dim, double> step{ 0., law.flow(point, low, slip) };
     const double first = step.flow.opening;
     step.closure       = start + first;
     if (first == 0. || step.closure <= 0.)
@@ -77,13 +79,13 @@ namespace quoin
     double high = first > 0. ? std::numeric_limits<double>::infinity() : low;
     if (first < 0.)
       low = 0.;
-    const RockStep<double> uncoupled = step;
+    const RockStep<dim, double> uncoupled = step;
     const double precision = 1e-14 * (std::abs(start) + std::abs(first));
     for (unsigned int i = 0; i < 60; ++i)
     {
-      const DualNumber trial(step.closure, 1., 0.);
-      const DualNumber rest
-          = trial - start - law.flow(point, trial, DualNumber(slip)).opening;
+      const Dual trial(step.closure, 0);
+      const Dual rest
+          = trial - start - law.flow(point, trial, constant).opening;
       if (first < 0. && rest.by[0] < least_slope)
         return uncoupled;
       (rest.value > 0. ? high : low) = step.closure;
@@ -103,29 +105,29 @@ namespace quoin
   }
 
   /** The derivatives of @p step by opening and slip. */
-  template <typename Law>
-  RockStep<DualNumber> differentiate(const Law &law, const RockPoint &point,
-                                     const double opening, const double slip,
-                                     const RockStep<double> &step)
+  template <typename Law, int dim>
+  RockStep<dim, DualNumber<dim>>
+  differentiate(const Law &law, const RockPoint<dim> &point,
+                const double opening, const Slip<dim> &slip,
+                const RockStep<dim, double> &step)
   {
-    const DualNumber slip_now(slip, 0., 1.);
-    const DualNumber start(point.plastic_opening - opening, -1., 0.);
-    RockStep<DualNumber> result;
+    using Dual          = DualNumber<dim>;
+    const auto slip_now = variable_slip<dim>(slip);
+    const Dual start(point.plastic_opening - opening, 0, -1.);
+    RockStep<dim, Dual> result;
     if (!step.is_coupled)
     {
       result.flow    = law.flow(point, start, slip_now);
       result.closure = start + result.flow.opening;
       return result;
     }
-    const DualNumber by_closure
-        = law.flow(point, DualNumber(step.closure, 1., 0.), DualNumber(slip))
+    const Dual by_closure
+        = law.flow(point, Dual(step.closure, 0), constant_slip<dim, Dual>(slip))
               .opening;
-    const DualNumber rest
-        = start + law.flow(point, DualNumber(step.closure), slip_now).opening;
-    const double slope = 1. - by_closure.by[0];
-    result.closure
-        = DualNumber(step.closure, rest.by[0] / slope, rest.by[1] / slope);
-    result.flow = law.flow(point, result.closure, slip_now);
+    const Dual rest
+        = start + law.flow(point, Dual(step.closure), slip_now).opening;
+    result.closure = chain(step.closure, 1. / (1. - by_closure.by[0]), rest);
+    result.flow    = law.flow(point, result.closure, slip_now);
     return result;
   }
 
@@ -134,20 +136,21 @@ namespace quoin
    * the trapezoidal rule less the change of stored energy. What the rule
    * makes of the curve of the closure is left to the energy residual.
    */
-  template <typename Law>
-  JointDissipation take_step(const Law &law, RockPoint &point,
-                             const double slip, const RockStep<double> &step)
+  template <typename Law, int dim>
+  JointDissipation take_step(const Law &law, RockPoint<dim> &point,
+                             const Slip<dim> &slip,
+                             const RockStep<dim, double> &step)
   {
-    const bool is_open     = step.closure < 0.;
-    const double sigma_old = point.normal_traction;
-    const double tau_old   = point.shear_traction;
-    const double ks_old    = law.shear_stiffness(-sigma_old);
-    const double sigma     = is_open ? 0. : -law.closure.traction(step.closure);
-    const double tau       = is_open ? 0. : step.flow.shear_traction;
-    const double opened    = is_open ? 0. : step.flow.opening;
+    const bool is_open      = step.closure < 0.;
+    const double sigma_old  = point.normal_traction;
+    const Slip<dim> tau_old = point.shear_traction;
+    const double ks_old     = law.shear_stiffness(-sigma_old);
+    const double sigma  = is_open ? 0. : -law.closure.traction(step.closure);
+    const Slip<dim> tau = is_open ? Slip<dim>() : step.flow.shear_traction;
+    const double opened = is_open ? 0. : step.flow.opening;
 
-    const double elastic = tau_old / ks_old;
-    const double moved   = slip - point.plastic_slip - elastic;
+    const Slip<dim> elastic = tau_old / ks_old;
+    const Slip<dim> moved   = slip - point.plastic_slip - elastic;
     JointDissipation lost;
     lost.friction = 0.5 * (tau_old + tau) * moved + 0.5 * tau_old * elastic
                     - 0.5 * tau * tau / law.shear_stiffness(-sigma)
@@ -188,57 +191,54 @@ namespace quoin
   struct RockLaw : JointLawDefaults
   {
     template <int dim>
-    struct PlanePoint
-    {
-      static_assert(dim == 2,
-                    "Laws of rock joints take slip as one number: they "
-                    "exist in two dimensions alone.");
-      using type = RockPoint;
-    };
-    template <int dim>
-    using Point = typename PlanePoint<dim>::type;
+    using Point = RockPoint<dim>;
 
-    static constexpr const char *kind     = "a law of rock joints";
-    static constexpr bool stiffens        = true;
-    static constexpr bool has_slip_vector = false;
+    static constexpr const char *kind = "a law of rock joints";
+    static constexpr bool stiffens    = true;
 
     /** Updates @p point for @p opening and @p slip [m]. */
-    JointDissipation update(RockPoint &point, const double opening,
-                            const double slip) const
+    template <int dim>
+    JointDissipation update(RockPoint<dim> &point, const double opening,
+                            const Slip<dim> &slip) const
     {
       return take_step(own(), point, slip,
                        find_step(own(), point, opening, slip));
     }
 
     /** As update(), with the consistent tangent; see CoulombLaw. */
-    JointDissipation update(RockPoint &point, const double opening,
-                            const double slip, JointTangent<2> &tangent) const
+    template <int dim>
+    JointDissipation update(RockPoint<dim> &point, const double opening,
+                            const Slip<dim> &slip,
+                            JointTangent<dim> &tangent) const
     {
-      const RockStep<double> step = find_step(own(), point, opening, slip);
-      tangent                     = {};
+      const auto step = find_step(own(), point, opening, slip);
+      tangent         = {};
       if (step.closure >= 0.)
       {
         const auto slopes = differentiate(own(), point, opening, slip, step);
-        const DualNumber sigma = -own().closure.traction(slopes.closure);
-        const DualNumber tau   = slopes.flow.shear_traction;
-        tangent = { sigma.by[0], sigma.by[1], tau.by[0], tau.by[1] };
+        tangent           = tangent_of(-own().closure.traction(slopes.closure),
+                                       slopes.flow.shear_traction);
       }
       return take_step(own(), point, slip, step);
     }
 
     /** All of it is done by update_failing(). */
-    bool update_elastic(RockPoint &, double, double) const
+    template <int dim>
+    bool update_elastic(RockPoint<dim> &, double, const Slip<dim> &) const
     {
       return false;
     }
-    JointDissipation update_failing(RockPoint &point, const double opening,
-                                    const double slip) const
+    template <int dim>
+    JointDissipation update_failing(RockPoint<dim> &point, const double opening,
+                                    const Slip<dim> &slip) const
     {
       return update(point, opening, slip);
     }
 
     /** Recoverable energy per area [J/m^2]. */
-    double stored_energy(const RockPoint &point, double /*opening*/ = 0.) const
+    template <int dim>
+    double stored_energy(const RockPoint<dim> &point,
+                         double /*opening*/ = 0.) const
     {
       return own().closure.energy(-point.normal_traction)
              + 0.5 * point.shear_traction * point.shear_traction
@@ -246,7 +246,9 @@ namespace quoin
     }
 
     /** See CoulombLaw. */
-    double carried_energy(const RockPoint &before, const RockPoint &after) const
+    template <int dim>
+    double carried_energy(const RockPoint<dim> &before,
+                          const RockPoint<dim> &after) const
     {
       return 0.5 * stored_energy(before) + 0.5 * stored_energy(after);
     }
@@ -263,7 +265,8 @@ namespace quoin
     }
 
     /** New contacts have the smallest roughness that slip can lead to. */
-    void wear_out(RockPoint &point) const
+    template <int dim>
+    void wear_out(RockPoint<dim> &point) const
     {
       point.worn_slip = std::numeric_limits<double>::infinity();
     }

@@ -156,8 +156,6 @@ namespace quoin
     static constexpr bool is_brittle = false;
     /** Whether stiffnesses grow with the pressure, from less than the bound. */
     static constexpr bool stiffens = false;
-    /** Whether it has points of three dimensions, whose slip is a vector. */
-    static constexpr bool has_slip_vector = true;
     /** Whether a joint that is open may bear tension. */
     static constexpr bool bridges = false;
 
@@ -196,10 +194,10 @@ namespace quoin
     }
     /** Derivative of the elastic slip of @p point by its normal traction at
         constant shear traction [m/Pa]. */
-    template <typename Point>
-    double slip_by_pressure(const Point &) const
+    template <int dim>
+    Slip<dim> slip_by_pressure(const JointPoint<dim> &) const
     {
-      return 0.;
+      return {};
     }
   };
 } // namespace quoin

@@ -5,6 +5,7 @@
 #define quoin_tests_unit_joint_elements_space_stack_h
 
 #include "../joint_laws/composite_walk.h"
+#include "../joint_laws/rock_walk.h"
 #include "../mesh/space_box.h"
 
 #include <quoin/joint_elements/space_joints.h>
@@ -79,7 +80,9 @@ namespace quoin::test::space_stack
              composite_test::wall(),
              composite_test::dilatant(),
              closing,
-             fault };
+             fault,
+             rock_test::rough(),
+             rock_test::yielding() };
   }
 
   /** Two boxes of 2 x 1 x 1 cubes on each other, @p placed in space. */

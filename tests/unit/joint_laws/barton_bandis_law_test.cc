@@ -217,7 +217,7 @@ TEST(BartonBandisLaw, StartsAtRestUnderAnyTraction)
       for (const double s : { 1e4, 2e6, 3e6 })
       {
         const double tau = sense * share * strength(s, 1.);
-        RockPoint point;
+        RockPoint<2> point;
         law.initialise(point, -s, tau);
         EXPECT_EQ(point.normal_traction, -s);
         EXPECT_EQ(point.shear_traction, tau);
@@ -226,14 +226,14 @@ TEST(BartonBandisLaw, StartsAtRestUnderAnyTraction)
         EXPECT_NEAR(point.shear_traction, tau, 1e-9 * s);
         EXPECT_EQ(point.state, JointState::intact);
         // Not stronger than it need be, if ks is not what it lacks
-        const double more = law.peak_slip * 0.05;
-        RockPoint beyond  = point;
+        const double more   = law.peak_slip * 0.05;
+        RockPoint<2> beyond = point;
         law.update(beyond, 0., sense * more);
         EXPECT_LT(std::abs(beyond.shear_traction),
                   std::abs(tau) + 5e9 * more * (1. + 1e-12));
       }
   // What it cannot bear it sheds.
-  RockPoint point;
+  RockPoint<2> point;
   law.initialise(point, -2e6, 1.5 * strength(2e6, 1.));
   law.update(point, 0., 0.);
   EXPECT_EQ(point.state, JointState::slipping);

@@ -199,7 +199,7 @@ TEST(ContinuouslyYieldingLaw, StartsAtRestUnderAnyTraction)
   for (const double tau : { 0., 0.5e6, -1.5e6 })
     for (const double s : { 5e3, 2e6, 2e8 })
     {
-      RockPoint point;
+      RockPoint<2> point;
       law.initialise(point, -s, tau * s / pressure);
       law.update(point, 0., 0.);
       EXPECT_NEAR(point.normal_traction, -s, 1e-9 * s);

@@ -43,7 +43,7 @@ namespace quoin
     struct Walk
     {
       Law law;
-      RockPoint point{};
+      RockPoint<2> point{};
       double opening = 0., slip = 0.;
       double work = 0., turnover = 0., lost = 0., least = 0.;
 
@@ -86,7 +86,7 @@ namespace quoin
           double next        = opening;
           for (unsigned int i = 0; i < 50; ++i)
           {
-            RockPoint trial = point;
+            RockPoint<2> trial = point;
             JointTangent<2> tangent;
             law.update(trial, next, there, tangent);
             const double rest = sigma - trial.normal_traction;
@@ -148,18 +148,18 @@ namespace quoin
       n_checked    = 0;
       for (unsigned int path = 0; path < 40; ++path)
       {
-        RockPoint point;
+        RockPoint<2> point;
         for (unsigned int i = 0; i < 40; ++i)
         {
           const double opening
               = point.dilated - 2.5e-4 * uniform(random) + 0.3e-4;
           const double slip = reach * (2. * uniform(random) - 1.);
-          RockPoint here    = point;
+          RockPoint<2> here = point;
           JointTangent<2> tangent;
           law.update(here, opening, slip, tangent);
           const auto difference = [&](const double du, const double dv)
           {
-            RockPoint there = point;
+            RockPoint<2> there = point;
             law.update(there, opening + du, slip + dv);
             return std::array<double, 2>{
               (there.normal_traction - here.normal_traction) / (du + dv),

@@ -4,6 +4,7 @@
 // Joint laws where slip is a vector: joints of bodies in three dimensions.
 
 #include "composite_walk.h"
+#include "rock_walk.h"
 
 #include <quoin/joint_laws/composite_law.h>
 #include <quoin/joint_laws/coulomb_law.h>
@@ -73,6 +74,23 @@ namespace
     law.friction          = 0.7;
     law.residual_friction = 0.4;
     law.weakening_slip    = 5e-3;
+    return law;
+  }
+
+  /** Laws of rock joints, whose closures are straight if @p exact: others
+      leave the trapezoidal error of their curve to the energy residual. */
+  BartonBandisLaw rough_joint(const bool exact = false)
+  {
+    BartonBandisLaw law = rock_test::rough();
+    if (exact)
+      law.closure = HyperbolicClosure(10e9, 0.3e-3, 10e9);
+    return law;
+  }
+  ContinuouslyYieldingLaw yielding_joint(const bool exact = false)
+  {
+    ContinuouslyYieldingLaw law = rock_test::yielding(exact ? 0. : 0.4);
+    if (exact)
+      law.closure = PowerClosure({ 20e9, 0., 1e6, 1e4, 1e8 });
     return law;
   }
 
@@ -277,6 +295,8 @@ TEST(SlipVector, IsotropicLaws)
 {
   expect_isotropic(dilatant_coulomb(), random_path(-1e-3, 1e-4, 4e-3));
   expect_isotropic(fault(), random_path(-1e-3, 1e-4, 4e-3));
+  expect_isotropic(rough_joint(), random_path(-3e-4, 1e-4, 4e-3));
+  expect_isotropic(yielding_joint(), random_path(-3e-4, 1e-4, 4e-4));
   for (const CompositeLaw &law : composite_laws())
     expect_isotropic(law, random_path(-1e-4, 2e-5, 2e-4));
 }
@@ -286,6 +306,10 @@ TEST(SlipVector, StraightPathsAreThoseOfTwoDimensions)
   expect_as_in_two_dimensions(dilatant_coulomb(),
                               random_path(-1e-3, 1e-4, 4e-3));
   expect_as_in_two_dimensions(fault(), random_path(-1e-3, 1e-4, 4e-3));
+  expect_as_in_two_dimensions(rough_joint(), random_path(-3e-4, 1e-4, 4e-3));
+  for (const double reach : { 4e-4, 4e-3 })
+    expect_as_in_two_dimensions(yielding_joint(),
+                                random_path(-3e-4, 1e-4, reach));
   for (const CompositeLaw &law : composite_laws())
     expect_as_in_two_dimensions(law, random_path(-1e-4, 2e-5, 2e-4));
 }
@@ -296,6 +320,8 @@ TEST(SlipVector, EnergyAlongARandomPath)
   // left to the residual.
   expect_balance(dilatant_coulomb(), random_path(-1e-3, -5e-4, 4e-3), 1e-12);
   expect_balance(fault(), random_path(-1e-3, -1e-4, 4e-3), 1e-12);
+  expect_balance(rough_joint(true), random_path(-3e-4, -1e-4, 4e-3), 1e-12);
+  expect_balance(yielding_joint(true), random_path(-3e-4, -1e-4, 4e-4), 1e-6);
   for (const CompositeLaw &law : composite_laws())
     expect_balance(law, random_path(-1e-4, 2e-5, 2e-4), 1e-6);
 }
@@ -307,6 +333,8 @@ TEST(SlipVector, TangentIsTheDerivative)
   slow.weakening_slip   = 1.;
   for (const SlipWeakeningLaw &law : { fault(), slow })
     expect_consistent_tangent(law, random_path(-1e-3, 1e-4, 4e-3));
+  expect_consistent_tangent(rough_joint(), random_path(-3e-4, 1e-4, 1e-2));
+  expect_consistent_tangent(yielding_joint(), random_path(-3e-4, 1e-4, 2e-3));
   for (const CompositeLaw &law : composite_laws())
     expect_consistent_tangent(law, random_path(-1e-4, 2e-5, 2e-4));
 }

@@ -1,0 +1,3 @@
+// The cube with half as many edges.
+n = 10;
+Include "cube.geo";
