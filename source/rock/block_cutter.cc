@@ -86,12 +86,12 @@ namespace quoin
     return std::abs(distance) <= tolerance ? 0 : distance > 0. ? 1 : -1;
   }
 
-  double BlockCutter::area(const unsigned int face) const
+  Vector BlockCutter::area(const unsigned int face) const
   {
     std::vector<Point> loop;
     for (const unsigned int v : all_faces[face].loop)
       loop.push_back(points[v]);
-    return area_vector(loop).norm();
+    return area_vector(loop);
   }
 
   double BlockCutter::volume(const unsigned int block) const

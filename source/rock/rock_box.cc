@@ -174,8 +174,18 @@ namespace quoin
     double sum = 0.;
     for (unsigned int f = 0; f < blocks.faces().size(); ++f)
       if (blocks.faces()[f].surface == surface(set))
-        sum += blocks.area(f);
+        sum += blocks.area(f).norm();
     return sum;
+  }
+
+  double RockBox::joint_frequency(const unsigned int set,
+                                  const Vector &direction) const
+  {
+    double sum = 0.;
+    for (unsigned int f = 0; f < blocks.faces().size(); ++f)
+      if (blocks.faces()[f].surface == surface(set))
+        sum += std::abs(blocks.area(f) * direction);
+    return sum / box_volume();
   }
 
   unsigned int RockBox::n_crossings(const unsigned int set, const Point &a,
@@ -240,14 +250,16 @@ namespace quoin
     std::ostringstream text;
     text.precision(10);
     text << "kind,name,dip [deg],dip direction [deg],P32 asked [1/m],"
-            "P32 made [1/m],volume [m^3]\n";
+            "P32 made [1/m],P10 made [1/m],volume [m^3]\n";
     const double total = box.box_volume();
     for (unsigned int s = 0; s < rock.sets.size(); ++s)
     {
       const SpaceJointSet &set = rock.sets[s];
       text << "set," << set.name << "," << set.dip << "," << set.dip_direction
            << "," << set.persistence / set.spacing.mean << ","
-           << box.joint_area(s) / total << ",\n";
+           << box.joint_area(s) / total << ","
+           << box.joint_frequency(s, plane_normal(set.dip, set.dip_direction))
+           << ",\n";
       for (const JointPlane &plane : box.planes[s])
       {
         const Vector n   = plane.normal[2] < 0. ? -plane.normal : plane.normal;
@@ -256,11 +268,11 @@ namespace quoin
           direction += 360.;
         text << "plane," << set.name << ","
              << std::acos(std::min(n[2], 1.)) / constants::degree << ","
-             << direction << ",,,\n";
+             << direction << ",,,,\n";
       }
     }
     for (unsigned int b = 0; b < box.blocks.n_blocks(); ++b)
-      text << "block," << b + 1 << ",,,,," << box.blocks.volume(b) << "\n";
+      text << "block," << b + 1 << ",,,,,," << box.blocks.volume(b) << "\n";
     return text.str();
   }
 

@@ -14,14 +14,14 @@ import numpy as np
 from synthetic_runs import SCRIPTS
 from quoin.commands import stereonet
 
-TABLE = """kind,name,dip [deg],dip direction [deg],P32 asked [1/m],P32 made [1/m],volume [m^3]
-set,bedding,10,90,0.5,0.48,
-plane,bedding,20,90,,,
-plane,bedding,20,270,,,
-set,cross,85,0,1,1,
-plane,cross,80,0,,,
-plane,cross,90,180,,,
-block,1,,,,,2.5
+TABLE = """kind,name,dip [deg],dip direction [deg],P32 asked [1/m],P32 made [1/m],P10 made [1/m],volume [m^3]
+set,bedding,10,90,0.5,0.48,0.47,
+plane,bedding,20,90,,,,
+plane,bedding,20,270,,,,
+set,cross,85,0,1,1,0.98,
+plane,cross,80,0,,,,
+plane,cross,90,180,,,,
+block,1,,,,,,2.5
 """
 
 

@@ -84,7 +84,8 @@ namespace quoin
       return points;
     }
     double volume(unsigned int block) const; /**< [m^3] */
-    double area(unsigned int face) const;    /**< [m^2] */
+    /** Normal of a face times its area [m^2]. */
+    dealii::Tensor<1, 3> area(unsigned int face) const;
 
   private:
     using Edge = std::pair<unsigned int, unsigned int>;

@@ -75,6 +75,10 @@ namespace quoin
     }
     double box_volume() const;                 /**< [m^3] */
     double joint_area(unsigned int set) const; /**< [m^2] */
+    /** Joints of @p set by length of a line along the unit vector
+        @p direction (P10 [1/m]): the mean of all such lines in the box. */
+    double joint_frequency(unsigned int set,
+                           const dealii::Tensor<1, 3> &direction) const;
     /** Crossings of the line from @p a to @p b with joints of @p set. */
     unsigned int n_crossings(unsigned int set, const dealii::Point<3> &a,
                              const dealii::Point<3> &b) const;
@@ -102,8 +106,9 @@ namespace quoin
 
   /**
    * A table (CSV) with a row for each set: mean dip and dip direction [deg],
-   * area of joints per volume (P32 [1/m]) as asked and made; for each of its
-   * planes: dip and dip direction; and for each block: volume [m^3].
+   * area of joints per volume (P32 [1/m]) as asked and made, and joints by
+   * length of a scanline along the mean normal (P10 [1/m]) as made; for each of
+   * its planes: dip and dip direction; and for each block: volume [m^3].
    */
   std::string rock_box_statistics(const RockBoxParameters &rock,
                                   const RockBox &box);

@@ -8,8 +8,9 @@
 Lower hemisphere, equal areas; north is up. Dots are the poles of the planes in
 rock_statistics.csv, crosses and great circles the mean planes of the sets. The
 legend has the number of planes, the area of joints by volume, P32, that was asked
-for and that was made, and from the planes the mean plane and the concentration
-of Fisher's distribution about it.
+for and that was made, the joints by length of a scanline along the mean normal, P10,
+and from the planes the mean plane and the concentration of Fisher's distribution
+about it.
 """
 
 import csv
@@ -100,8 +101,9 @@ def draw(sets, path):
             if np.isfinite(concentration):
                 words += "\n  made %.3g/%.3g, concentration %.3g" \
                     % (dip, direction, concentration)
-        words += "\n  P32 asked %.3g, made %.3g 1/m" % (
-            float(row["P32 asked [1/m]"]), float(row["P32 made [1/m]"]))
+        words += "\n  P32 asked %.3g, made %.3g 1/m, P10 %.3g 1/m" % tuple(
+            float(row[f"{what} [1/m]"])
+            for what in ("P32 asked", "P32 made", "P10 made"))
         colour = f"C{i % 10}"
         axes.plot(*project(poles).T, ".", color=colour, markersize=5)
         axes.plot(*project(pole(*asked)), "+", color=colour, markersize=12,

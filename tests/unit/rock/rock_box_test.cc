@@ -103,6 +103,9 @@ TEST(RockBox, ScanlineAtAnAngleMeetsFewerJoints)
   // 100 m at a cosine of 0.6 to the normal
   EXPECT_EQ(box.n_crossings(0, a, b),
             static_cast<unsigned int>(100 * 0.6 / 0.5));
+  const dealii::Tensor<1, 3> direction = b - a;
+  EXPECT_NEAR(box.joint_frequency(0, direction / direction.norm()),
+              box.joint_area(0) / box.box_volume() * 0.6, 1e-12);
 }
 
 TEST(RockBox, VolumesSumUpAndFacesCloseBlocks)
