@@ -120,7 +120,7 @@ namespace quoin
           const LoadQuantity quantity = given.component.quantity;
           if ((load->type != LoadType::prescribed_motion
                && load->type != LoadType::platen)
-              || given.component.field || given.name == "rotation"
+              || given.component.field || given.name.rfind("rotation", 0) == 0
               || quantity == LoadQuantity::force)
             continue;
           auto values
@@ -302,7 +302,7 @@ namespace quoin
         if (load->shape)
           continue;
         Jump jump;
-        for (unsigned int d = 0; d < 5 && jump.height == 0.; ++d)
+        for (unsigned int d = 0; d < 7 && jump.height == 0.; ++d)
           if (load->functions()[d].quantity == LoadQuantity::force)
             jump = jump_of(run, *load, d);
         checks.warn_if(
@@ -478,7 +478,8 @@ namespace quoin
         for (const auto &given : load->given_components())
         {
           const LoadQuantity quantity = given.component.quantity;
-          if (quantity == LoadQuantity::force || given.name == "rotation")
+          if (quantity == LoadQuantity::force
+              || given.name.rfind("rotation", 0) == 0)
             continue;
           auto values
               = sampled(run.function(given.component), run.stage.duration, n);
@@ -520,7 +521,7 @@ namespace quoin
         {
           if ((load->type != LoadType::prescribed_motion
                && load->type != LoadType::platen)
-              || given.component.field || given.name == "rotation"
+              || given.component.field || given.name.rfind("rotation", 0) == 0
               || given.component.quantity == LoadQuantity::force)
             continue;
           const double travel = travel_of(

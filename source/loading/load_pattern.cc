@@ -190,7 +190,7 @@ namespace quoin
           is_held[node][d] = is_held[node][d] || traits.moves(d);
           moves_platen     = moves_platen
                          || (traits.is_rigid_body() && nodal[node][d] != 0.
-                             && !(traits.holds[d] && traits.holds[2]));
+                             && !(traits.holds[d] && traits.holds_rotation));
         }
     }
     const MPI_Comm communicator = model.nodes().communicator();
@@ -198,7 +198,7 @@ namespace quoin
       throw InputError(
           "section 'Stages/" + stage_name
           + "': 'Load pattern' acts on a platen that is free to move with it. "
-            "Drive or hold that platen along the loads and in 'Rotation', or "
+            "Drive or hold that platen along the loads and in its rotation, or "
             "replace it by a block with 'Law = rigid'.");
     loaded.clear();
     node_gain = 0.;

@@ -7,7 +7,7 @@
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/joint_crack.h>
 #include <quoin/loads/load_field.h>
-#include <quoin/loads/platen.h>
+#include <quoin/loads/space_platen.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
 #include <quoin/model/material_waves.h>
@@ -76,8 +76,7 @@ namespace quoin
           follow_cracks(model, load, nodal.back());
         break;
       case LoadType::platen:
-        if constexpr (dim == 2)
-          constraints.push_back(std::make_unique<Platen>(load, nodes));
+        constraints.push_back(std::make_unique<PlatenOf<dim>>(load, nodes));
         break;
       case LoadType::boundary_elements:
         if constexpr (dim == 2)

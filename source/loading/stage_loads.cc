@@ -12,13 +12,30 @@ namespace quoin
 {
   namespace
   {
+    /** The functions of rotations of a platen in three dimensions. */
+    template <int dim>
+    const std::array<LoadComponent, 3> *
+    rotations_of(const MotionConstraint<dim> &constraint)
+    {
+      const RigidMotion<dim> *body = constraint.rigid_motion();
+      return body ? body->rotations() : nullptr;
+    }
+
     /** Values of the functions of time of @p constraint; 0 without them. */
     template <int dim>
-    std::array<double, 3> values_of(const MotionConstraint<dim> &constraint,
+    std::array<double, 6> values_of(const MotionConstraint<dim> &constraint,
                                     const TimePoint &time)
     {
-      return constraint.parts() ? component_values(*constraint.parts(), time)
-                                : std::array<double, 3>{};
+      std::array<double, 6> result{};
+      unsigned int i = 0;
+      for (const auto *parts : { constraint.parts(), rotations_of(constraint) })
+      {
+        if (parts)
+          for (const double value : component_values(*parts, time))
+            result[i++] = value;
+        i = 3;
+      }
+      return result;
     }
   } // namespace
 
@@ -33,8 +50,9 @@ namespace quoin
       result.push_back(load->amplitude(time));
     for (const MotionConstraint<dim> *constraint : constraints)
     {
-      const auto [x, y, rotation] = values_of(*constraint, time);
-      result.push_back({ x, y, rotation, 0., 0. });
+      const auto own = values_of(*constraint, time);
+      result.push_back({ own[0], own[1], own[2], 0., 0. });
+      result.push_back({ own[3], own[4], own[5], 0., 0. });
     }
     if (beams)
       for (const double load : beams->loads(time))
@@ -63,10 +81,18 @@ namespace quoin
   template <int dim>
   void StageLoads<dim>::check_start(const State<dim> &state) const
   {
+    constexpr std::array<const char *, 3> names
+        = { "Horizontal", dim == 2 ? "Vertical" : "Lateral",
+            dim == 2 ? "Rotation" : "Vertical" };
+    const TimePoint time{ 0., state.time };
     for (const MotionConstraint<dim> *constraint : constraints)
-      if (constraint->parts())
-        check_no_jump<dim>(*constraint->parts(), { 0., state.time },
-                           constraint->name());
+    {
+      if (const auto *parts = constraint->parts())
+        check_no_jump(*parts, names, time, constraint->name());
+      if (const auto *turns = rotations_of(*constraint))
+        check_no_jump(*turns, { "Rotation x", "Rotation y", "Rotation" }, time,
+                      constraint->name());
+    }
   }
 
   template <int dim>

@@ -60,7 +60,10 @@ namespace quoin
         return { { "Horizontal", "N" },
                  { "Vertical", "N" },
                  { "Rotation", "N m" },
-                 { "Lateral", "N" } };
+                 { "Lateral", "N" },
+                 {},
+                 { "Rotation x", "N m" },
+                 { "Rotation y", "N m" } };
       default:
         return {};
       }
@@ -86,8 +89,10 @@ namespace quoin
             { "Vertical", "free", directed },
             { "Lateral",
               "free",
-              { "prescribed motion", "traction", "gravity" } },
+              { "prescribed motion", "traction", "platen", "gravity" } },
             { "Rotation", "free", { "platen" } },
+            { "Rotation x", "free", { "platen" } },
+            { "Rotation y", "free", { "platen" } },
             { "Pressure", "free", { "traction" } },
             { "Ramp duration", "automatic", { "gravity" } },
             { "Headwater", "", { "traction" } },
@@ -172,13 +177,10 @@ namespace quoin
     return values;
   }
 
-  template <int dim>
   void check_no_jump(const std::array<LoadComponent, 3> &components,
+                     const std::array<const char *, 3> &names,
                      const TimePoint &time, const std::string &load)
   {
-    constexpr std::array<const char *, 3> names
-        = { "Horizontal", dim == 2 ? "Vertical" : "Lateral",
-            dim == 2 ? "Rotation" : "Vertical" };
     const auto values = component_values(components, time);
     for (unsigned int d = 0; d < 3; ++d)
       if (components[d].quantity == LoadQuantity::displacement
@@ -190,11 +192,6 @@ namespace quoin
             "at 0: let it rise from 0."));
   }
 
-  template void check_no_jump<2>(const std::array<LoadComponent, 3> &,
-                                 const TimePoint &, const std::string &);
-  template void check_no_jump<3>(const std::array<LoadComponent, 3> &,
-                                 const TimePoint &, const std::string &);
-
   template <>
   LoadParameters LoadParameters::along_axes<2>() const
   {
@@ -203,6 +200,13 @@ namespace quoin
                        + "': 'Lateral' is along the third axis, which a model "
                          "in two dimensions does not have. Remove it, or take "
                          "a mesh of tetrahedra.");
+    for (const unsigned int d : { 0, 1 })
+      if (rotations[d].quantity != LoadQuantity::free)
+        throw InputError("section 'Loads/" + name + "': 'Rotation "
+                         + (d == 0 ? "x" : "y")
+                         + "' is out of the plane of a model in two "
+                           "dimensions. Take 'Rotation', or a mesh of "
+                           "tetrahedra.");
     if (shape && shape->axis == 2)
       throw InputError("section 'Loads/" + name
                        + "': 'Moving axis = z' does not exist in two "
@@ -215,8 +219,10 @@ namespace quoin
   {
     LoadParameters result = *this;
     if (type == LoadType::prescribed_motion || type == LoadType::traction
-        || type == LoadType::gravity)
+        || type == LoadType::gravity || type == LoadType::platen)
       result.components = { components[0], lateral, components[1] };
+    if (type == LoadType::platen)
+      result.rotations[2] = components[2];
     return result;
   }
 
@@ -424,7 +430,7 @@ namespace quoin
                     "is preceded by 'velocity' [m/s], 'displacement' [m] or "
                     "'force' [N].",
               plain);
-      if (entries.reads_if(is_motion || is_force))
+      if (entries.reads_if(is_platen || is_motion || is_force))
         enter_component(entries, "Lateral", "free", load.lateral,
                         "Component along y of a model in three dimensions, in "
                         "which 'Horizontal' is along x and 'Vertical' along z; "
@@ -433,10 +439,18 @@ namespace quoin
       if (entries.reads_if(is_platen))
         enter_component(
             entries, "Rotation", "free", load.components[2],
-            "Rotation of a platen, anticlockwise: 'velocity' [deg/s], "
-            "'displacement' [deg] or 'moment' [N m] and a function of time, or "
-            "'free'.",
+            "Rotation of a platen, anticlockwise, in three dimensions about "
+            "the vertical: 'velocity' [deg/s], 'displacement' [deg] or "
+            "'moment' [N m] and a function of time, or 'free'.",
             rotation_component);
+      const std::string axes[] = { "x", "y" };
+      for (const unsigned int d : { 0, 1 })
+        if (entries.reads_if(is_platen))
+          enter_component(entries, "Rotation " + axes[d], "free",
+                          load.rotations[d],
+                          "Rotation of a platen in three dimensions about "
+                              + axes[d] + ", as 'Rotation' is given.",
+                          rotation_component);
       if (entries.reads_if(is_force))
         enter_component(
             entries, "Pressure", "free", load.pressure,
@@ -568,16 +582,17 @@ namespace quoin
   LoadParameters::given_components() const
   {
     const auto words = component_words(type);
-    const std::array<const LoadComponent *, 5> parts
+    const std::array<const LoadComponent *, 7> parts
         = { &components[0], &components[1], &components[2], &lateral,
-            &pressure };
+            &pressure,      &rotations[0],  &rotations[1] };
     std::vector<NamedComponent> result;
     for (unsigned int d = 0; d < words.size(); ++d)
     {
       const LoadComponent &part = *parts[d];
       if (part.quantity == LoadQuantity::free)
         continue;
-      const std::string length = words[d].name == "Rotation" ? "degrees" : "m";
+      const std::string length
+          = words[d].name.rfind("Rotation", 0) == 0 ? "degrees" : "m";
       result.push_back({ boost::algorithm::to_lower_copy(words[d].name),
                          part.quantity == LoadQuantity::velocity ? length + "/s"
                          : part.quantity == LoadQuantity::displacement

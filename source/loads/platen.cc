@@ -17,12 +17,13 @@ namespace quoin
 {
   namespace
   {
+    template <int dim>
     std::vector<unsigned int>
-    nodes_of_groups(const NodeMap<2> &node_map,
+    nodes_of_groups(const NodeMap<dim> &node_map,
                     const std::vector<unsigned int> &groups)
     {
       // Another rank may have the cells of an owned node.
-      std::vector<dealii::Tensor<1, 2>> is_in(node_map.n_local());
+      std::vector<dealii::Tensor<1, dim>> is_in(node_map.n_local());
       for (unsigned int c = 0; c < node_map.cells().size(); ++c)
         if (std::find(groups.begin(), groups.end(), node_map.cells().group[c])
             != groups.end())
@@ -46,20 +47,31 @@ namespace quoin
     }
   } // namespace
 
+  template <int dim>
+  std::vector<unsigned int> platen_nodes(const LoadParameters &parameters,
+                                         const NodeMap<dim> &node_map)
+  {
+    return parameters.groups.empty()
+               ? nodes_of_faces(node_map,
+                                faces_of_curves(node_map, parameters.boundaries,
+                                                parameters.name))
+               : nodes_of_groups(node_map,
+                                 groups_of_names(node_map, parameters.groups,
+                                                 parameters.name));
+  }
+  template std::vector<unsigned int> platen_nodes(const LoadParameters &,
+                                                  const NodeMap<2> &);
+  template std::vector<unsigned int> platen_nodes(const LoadParameters &,
+                                                  const NodeMap<3> &);
+
   Platen::Platen(const LoadParameters &parameters, const NodeMap<2> &node_map)
     : components(parameters.components), communicator(node_map.communicator())
   {
-    load_name        = parameters.name;
-    own_traits.kind  = MotionKind::rigid_body;
-    own_traits.holds = { { driven(0), driven(1), driven(2) } };
-    node_list
-        = parameters.groups.empty()
-              ? nodes_of_faces(
-                  node_map,
-                  faces_of_curves(node_map, parameters.boundaries, load_name))
-              : nodes_of_groups(
-                  node_map,
-                  groups_of_names(node_map, parameters.groups, load_name));
+    load_name                 = parameters.name;
+    own_traits.kind           = MotionKind::rigid_body;
+    own_traits.holds          = { { driven(0), driven(1), driven(2) } };
+    own_traits.holds_rotation = driven(2);
+    node_list                 = platen_nodes(parameters, node_map);
   }
 
   void Platen::set_mass(const std::vector<double> &mass,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/packed_vectors.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/point_text.h>
 #include <quoin/base/exceptions.h>
@@ -137,7 +136,7 @@ namespace quoin
         const auto holds = held_by(*constraint, with_drag);
         // A platen free to rotate restrains its centre alone, which lies within
         // its nodes, with one row for each prescribed component.
-        if (!constraint->traits().is_rigid_body() || holds[2])
+        if (!constraint->traits().is_rigid_body() || (dim == 2 && holds[2]))
           add_nodes(*constraint, holds);
         if (constraint->traits().is_rigid_body())
           add_platen(*constraint, holds);
@@ -198,11 +197,20 @@ namespace quoin
       const bool has_first   = !blocks.empty() && *blocks.begin() == first;
       const unsigned int from
           = MPI::min(has_first ? own : MPI::n_mpi_processes(all), all);
-      if (holds[2] || own != from)
+      if ((dim == 2 && holds[2]) || own != from)
         return;
       for (unsigned int d = 0; d < dim; ++d)
         if (holds[d])
           add(first, row<dim>(d, arm(nodes.point(constraint.nodes().front()))));
+      if constexpr (dim == 3)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const LoadQuantity quantity
+              = (*constraint.rigid_motion()->rotations())[d].quantity;
+          if (quantity == LoadQuantity::velocity
+              || quantity == LoadQuantity::displacement)
+            add(first, Motion<dim>::Unit(dim + d));
+        }
     }
 
     template <int dim>
@@ -224,24 +232,34 @@ namespace quoin
 
     /** Adds the force and the moment of a platen, in equal parts at its nodes,
         to @p force and, of each body, @p sums. */
-    void add_platen(const MotionConstraint<2> &platen, const TimePoint &time,
-                    const Model<2> &model, Bodies<2> &bodies,
-                    std::vector<dealii::Tensor<1, 2>> &force,
+    template <int dim>
+    void add_platen(const MotionConstraint<dim> &platen, const TimePoint &time,
+                    const Model<dim> &model, Bodies<dim> &bodies,
+                    std::vector<dealii::Tensor<1, dim>> &force,
                     std::vector<double> &sums)
     {
+      constexpr unsigned int n_all = n_motions<dim>;
       const NodeExchange &exchange = model.nodes().exchange();
       const unsigned int n         = dealii::Utilities::MPI::sum(
                   unsigned(platen.nodes().size()), exchange.communicator());
-      std::array<double, 3> part{};
-      for (unsigned int d = 0; d < 3; ++d)
-        if ((*platen.parts())[d].quantity == LoadQuantity::force)
-          part[d] = (*platen.parts())[d].value(time) / n;
-      for (const unsigned int i : platen.nodes())
+      std::array<double, n_all> part{};
+      unsigned int i = 0;
+      for (const auto *parts :
+           { platen.parts(), platen.rigid_motion()->rotations() })
+        for (unsigned int d = 0; parts && d < 3; ++d, ++i)
+          if ((*parts)[d].quantity == LoadQuantity::force)
+            part[i] = (*parts)[d].value(time) / n;
+      for (const unsigned int node : platen.nodes())
       {
-        force[i] += vector_at(part, 0);
-        double *sum = &sums[4 * bodies.body(model.nodes().block_of_node(i))];
-        sum[2] += part[2] / bodies.length();
-        sum[3] += std::abs(part[2]) / bodies.length();
+        double *sum = &sums[(n_all + 1)
+                            * bodies.body(model.nodes().block_of_node(node))];
+        for (unsigned int d = 0; d < dim; ++d)
+          force[node][d] += part[d];
+        for (unsigned int d = dim; d < n_all; ++d)
+        {
+          sum[d] += part[d] / bodies.length();
+          sum[n_all] += std::abs(part[d]) / bodies.length();
+        }
       }
     }
 
@@ -261,10 +279,9 @@ namespace quoin
         load->add_loads(time, force.data());
       constexpr unsigned int n = n_motions<dim> + 1;
       std::vector<double> sums(n * n_blocks, 0.);
-      if constexpr (dim == 2)
-        for (const MotionConstraint<2> *constraint : constraints)
-          if (constraint->traits().is_rigid_body())
-            add_platen(*constraint, time, model, bodies, force, sums);
+      for (const MotionConstraint<dim> *constraint : constraints)
+        if (constraint->traits().is_rigid_body())
+          add_platen(*constraint, time, model, bodies, force, sums);
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
       {
         double *sum   = &sums[n * bodies.body(nodes.block_of_node(i))];

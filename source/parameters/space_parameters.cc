@@ -62,14 +62,20 @@ namespace quoin
     void check_loads(const Parameters &parameters, const Refusals &refusals)
     {
       for (const LoadParameters &load : parameters.loads)
-        refusals.refuse_if(load.type == LoadType::platen
-                               || load.type == LoadType::free_field
+      {
+        const std::string section = "section 'Loads/" + load.name + "': ";
+        if (load.type == LoadType::platen && parameters.is_implicit)
+          throw InputError(parameters.file + ", " + section
+                           + "a platen in three dimensions is one of the "
+                             "explicit solver. Take 'Solver = explicit', or "
+                             "'Type = prescribed motion'.");
+        refusals.refuse_if(load.type == LoadType::free_field
                                || load.type == LoadType::boundary_elements,
-                           "section 'Loads/" + load.name
-                               + "': 'Type = " + load.type_text() + "'",
-                           "Take 'prescribed motion', 'traction', 'gravity', "
-                           "'initial stress', "
-                           "'in-situ stress' or 'viscous boundary'.");
+                           section + "'Type = " + load.type_text() + "'",
+                           "Take 'prescribed motion', 'platen', 'traction', "
+                           "'gravity', 'initial stress', 'in-situ stress' or "
+                           "'viscous boundary'.");
+      }
     }
   } // namespace
 

@@ -382,7 +382,7 @@ namespace quoin
       {
         const unsigned int d = probe.parameters.component;
         row[1 + i] = probe.platen->rigid_motion()->displacement(state)[d]
-                     / (d == 2 ? constants::degree : 1.);
+                     / (d >= (dim == 2 ? 2 : 3) ? constants::degree : 1.);
       }
     }
     if constexpr (dim == 2)
@@ -505,8 +505,12 @@ namespace quoin
     for (unsigned int i = 0; i < n_columns; ++i)
     {
       const HistoryParameters &wanted = probes[i].parameters;
-      if (wanted.quantity == HistoryQuantity::reaction
-          || wanted.quantity == HistoryQuantity::platen_force)
+      if (wanted.quantity == HistoryQuantity::platen_force
+          && wanted.component >= 3)
+        result[1 + i]
+            = probes[i].platen->rigid_motion()->moments()[wanted.component - 3];
+      else if (wanted.quantity == HistoryQuantity::reaction
+               || wanted.quantity == HistoryQuantity::platen_force)
         result[1 + i] = solver.resultant(wanted.load)[wanted.component];
       else if (wanted.quantity == HistoryQuantity::unbalanced_ratio)
         result[1 + i] = state.unbalanced_ratio;

@@ -70,6 +70,14 @@ COLLAPSING = ["Materials/block/Law=linear elastic",
               "Histories/moved/Quantity=displacement x",
               "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 BARS = os.path.join(common.ROOT, "tests", "cases", "bars.prm")
+PLATENS = os.path.join(common.VERIFICATION, "space_platens", "case.prm")
+PRESSED = ["Stages/load/End=time", "Stages/load/Duration=5e-3",
+           "Stages/load/Damping=none", "Histories/Interval=1e-4",
+           "Loads/load/Horizontal=force 1e6", "Loads/load/Lateral=force -6e5",
+           "Loads/load/Vertical=force -2e6",
+           "Loads/load/Rotation x=moment 1e5",
+           "Loads/load/Rotation y=moment 4e5",
+           "Loads/load/Rotation=moment -3e5"]
 ROUGH = os.path.join(common.VERIFICATION, "space_rock_joints",
                      "barton_bandis.prm")
 SPACE_YIELDING = ["Materials/rock/Law=Mohr-Coulomb",
@@ -195,6 +203,8 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                "Stages/slide/Rayleigh stiffness "
                                "coefficient=1e-6",
                                "Output/Field interval=0.1"]),
+            # two platens in space, one free
+            "space, platen": (PLATENS, PRESSED),
             # rock joints that remember more, by both solvers
             "space, rock joint": (ROUGH, ["Stages/shear/Duration=0.3"]),
             "implicit, space, rock joint": (

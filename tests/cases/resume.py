@@ -47,6 +47,12 @@ CASES = {
                                    "case.prm"),
                       ["Output/Checkpoint interval=0.02",
                        "Output/Field interval=0.1"], 2, 2),
+    # platens with six degrees of freedom
+    "space, platen": (os.path.join(common.VERIFICATION, "space_platens",
+                                   "case.prm"),
+                      ["Output/Checkpoint interval=0.02",
+                       "Stages/load/End=time", "Stages/load/Duration=0.1"],
+                      2, 2),
     # a rock joint whose slip turns
     "space, rock joint": (os.path.join(common.VERIFICATION,
                                        "space_rock_joints",

@@ -69,6 +69,8 @@ CASES = {
     "bars": of_ranks("bars", ALL),
     "implicit, bars": of_ranks("implicit, bars", UP),
     "space, joints": of_ranks("space, joints", ALL),
+    "space, platen": of_ranks("space, platen", UP,
+                              ["Stages/load/Duration=0.05"]),
     "space, rock joint": of_ranks("space, rock joint", ALL),
     "space, crack": of_ranks("space, crack", UP),
     "space, excavation": of_ranks("space, excavation", UP),

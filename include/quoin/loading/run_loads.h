@@ -36,7 +36,7 @@ namespace quoin
   };
 
   /** All loads of a run, of which each stage names those that act in it
-      (StageLoads). Platens, free fields and boundary elements belong to two
+      (StageLoads). Free fields and boundary elements belong to two
       dimensions. */
   template <int dim>
   struct RunLoads

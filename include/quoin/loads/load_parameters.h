@@ -60,11 +60,11 @@ namespace quoin
                    const TimePoint &time);
 
   /**
-   * Throws an InputError naming @p load if a displacement is not zero at
-   * @p time, the start of a stage.
+   * Throws an InputError naming @p load and one of @p names if a displacement
+   * is not zero at @p time, the start of a stage.
    */
-  template <int dim>
   void check_no_jump(const std::array<LoadComponent, 3> &components,
+                     const std::array<const char *, 3> &names,
                      const TimePoint &time, const std::string &load);
 
   /** One load: a subsection of 'Loads'. */
@@ -78,9 +78,12 @@ namespace quoin
     /**
      * Components x, y and, for platens, the rotation; for a viscous boundary
      * the incident normal and shear velocity. along_axes() has components x, y,
-     * z.
+     * z, and the rotations of platens apart.
      */
     std::array<LoadComponent, 3> components;
+    /** Rotations of a platen in three dimensions about x, y and, in
+        along_axes() alone, z. */
+    std::array<LoadComponent, 3> rotations;
     LoadComponent lateral;  /**< component y in three dimensions, where the
                                vertical one is z */
     LoadComponent pressure; /**< pressure of tractions */
@@ -106,10 +109,11 @@ namespace quoin
         joints. */
     bool is_pressure_alone() const;
 
-    /** All functions of time: the components, lateral and pressure. */
-    std::array<LoadComponent, 5> functions() const
+    /** All functions of time: the components, lateral, pressure, rotations. */
+    std::array<LoadComponent, 7> functions() const
     {
-      return { components[0], components[1], components[2], lateral, pressure };
+      return { components[0], components[1], components[2], lateral,
+               pressure,      rotations[0],  rotations[1] };
     }
 
     /** This load with its components along the axes in @p dim dimensions.

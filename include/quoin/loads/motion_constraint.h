@@ -70,8 +70,10 @@ namespace quoin
   {
     MotionKind kind = MotionKind::absorbing;
     /** Flags of the components x, y and, for platens, rotation that it
-     * prescribes. */
+     * prescribes; in three dimensions x, y and z. */
     std::array<bool, 3> holds{};
+    /** Whether it prescribes all rotations of a platen. */
+    bool holds_rotation = false;
     /** Whether a stiffness resists motion of its nodes, prescribed or not. */
     bool supports = false;
     /** Name under which its wall time is reported. */
@@ -95,10 +97,21 @@ namespace quoin
   class RigidMotion
   {
   public:
-    /** Displacement x, y [m] and rotation [rad] since it first acted. */
+    /** Displacement x, y [m] and rotation [rad] since it first acted; in three
+        dimensions x, y, z and the rotations about these. */
     virtual const double *displacement(const State<dim> &state) const = 0;
     /** Unbalanced force [N] of its degrees of freedom. */
     virtual double unbalanced() const = 0;
+    /** In three dimensions: the functions of time of its rotations, and the
+        moments about its centre that go with resultant() [N m]; null: none. */
+    virtual const std::array<LoadComponent, 3> *rotations() const
+    {
+      return nullptr;
+    }
+    virtual std::array<double, 3> moments() const
+    {
+      return {};
+    }
 
   protected:
     ~RigidMotion() = default;

@@ -10,6 +10,11 @@
 
 namespace quoin
 {
+  /** The nodes that a platen moves: those of a boundary, or of groups. */
+  template <int dim>
+  std::vector<unsigned int> platen_nodes(const LoadParameters &parameters,
+                                         const NodeMap<dim> &node_map);
+
   /** Motion of a rigid platen: x [m], y [m], rotation [rad, anticlockwise]. */
   struct PlatenState
   {

@@ -13,8 +13,11 @@
 #include <quoin/dynamics/kinetic_energy.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
+#include <quoin/loads/space_platen.h>
 #include <quoin/loads/viscous_boundary.h>
 #include <quoin/mesh/partition.h>
+
+#include <deal.II/physics/transformations.h>
 
 #include <gtest/gtest.h>
 
@@ -334,4 +337,158 @@ TEST(SpaceBlocks, PlanePulsesLeaveThroughDashpots)
     EXPECT_NEAR(box.residual(), energy, 1e-6 * energy);
     EXPECT_NEAR(box.sum(box.state.energy.viscous), energy, 1e-3 * energy);
   }
+}
+
+namespace
+{
+  using Matrix = dealii::Tensor<2, 3>;
+
+  Matrix turned_by(const Vector &turn)
+  {
+    if (turn.norm() == 0.)
+      return dealii::unit_symmetric_tensor<3>();
+    return dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+        turn / turn.norm(), turn.norm());
+  }
+
+  /** A box of which a platen moves all nodes. */
+  struct Plate : Box
+  {
+    SpacePlaten *platen;
+    double total = 0.;
+    Vector centre;
+    Matrix inertia; /**< about the centre, where it begins */
+
+    Plate(const std::array<LoadComponent, 3> &parts,
+          const std::array<LoadComponent, 3> &turns)
+      : Box({ 4, 3, 2 }, 0.5, LinearElastic{ 2500., 1e10, 0.25 })
+    {
+      LoadParameters plate = load("plate", LoadType::platen, {});
+      plate.groups         = { "rock" };
+      plate.components     = parts;
+      plate.rotations      = turns;
+      auto made            = std::make_unique<SpacePlaten>(plate, nodes);
+      platen               = made.get();
+      platen->set_mass(mass);
+      constraints.push_back(std::move(made));
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      {
+        total += mass[i];
+        centre += mass[i] * Vector(nodes.point(i));
+      }
+      total  = sum(total);
+      centre = dealii::Utilities::MPI::sum(centre, MPI_COMM_WORLD) / total;
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      {
+        const Vector r = nodes.point(i) - centre;
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          inertia[d][d] += mass[i] * r.norm_square();
+          for (unsigned int e = 0; e < 3; ++e)
+            inertia[d][e] -= mass[i] * r[d] * r[e];
+        }
+      }
+      inertia = dealii::Utilities::MPI::sum(inertia, MPI_COMM_WORLD);
+    }
+
+    const SpacePlatenState &now() const
+    {
+      return state.get<SpacePlatenState>("plate");
+    }
+    Vector spin() const
+    {
+      const auto &v = now().velocity;
+      return Vector({ v[3], v[4], v[5] });
+    }
+  };
+} // namespace
+
+// About an axis near its middle one it tumbles; the momentum stays.
+TEST(SpaceBlocks, AFreePlatenFollowsEulersEquations)
+{
+  Plate box({}, {});
+  const Vector first({ 3., 40., -2. }), drift({ 1., -2., 3. });
+  box.set([](const Vector &) { return Vector(); }, [&](const Vector &x)
+          { return drift + cross_product_3d(first, x - box.centre); });
+  box.begin();
+  EXPECT_LT((box.spin() - first).norm(), 1e-12);
+  // Velocities are those of half a step ago.
+  Matrix R           = turned_by(-0.5 * box.dt * first);
+  const Vector L     = R * (box.inertia * (transpose(R) * first));
+  const auto spin_of = [&](const Matrix &rotation)
+  {
+    return Vector(rotation * (invert(box.inertia) * (transpose(rotation) * L)));
+  };
+  double energy = 0., change = 0.;
+  while (box.state.time < 0.2)
+  {
+    box.step();
+    if (energy == 0.)
+      energy = box.kinetic;
+    // by the middle of the step
+    R = turned_by(box.dt * spin_of(turned_by(0.5 * box.dt * spin_of(R)) * R))
+        * R;
+    EXPECT_LT((box.spin() - spin_of(R)).norm(), 2e-4 * first.norm());
+    change = std::max(change, (box.spin() - first).norm());
+  }
+  EXPECT_GT(change, 10.);
+  EXPECT_NEAR(box.kinetic, energy, 1e-5 * energy);
+  for (unsigned int d = 0; d < 3; ++d)
+    EXPECT_NEAR(box.now().displacement[d], drift[d] * box.state.time, 1e-9);
+}
+
+// A quarter of a turn about z, the rest held: nodes are where it takes them,
+// and the work of its moment is the energy of its rotation.
+TEST(SpaceBlocks, ADrivenPlatenTurnsAsGiven)
+{
+  const LoadComponent held = component(LoadQuantity::velocity, "0");
+  Plate box({ { held, held, held } },
+            { { held, held,
+                component(LoadQuantity::displacement,
+                          "90 * 0.5 * (1 - cos(pi * min(1, t / 0.05)))") } });
+  box.begin();
+  double most = 0.;
+  while (box.state.time < 0.05)
+  {
+    box.step();
+    EXPECT_LT(std::abs(box.residual()), 1e-6 * 1e3 + 1e-4 * box.kinetic);
+    most = std::max(most, box.kinetic);
+  }
+  // 0.5 I (pi/2 pi/2/0.05)^2
+  EXPECT_NEAR(most,
+              0.5 * box.inertia[2][2] * std::pow(0.25 * M_PI * M_PI / 0.05, 2),
+              1e-3 * most);
+  for (unsigned int i = 0; i < box.nodes.n_owned(); ++i)
+  {
+    const Vector r = box.nodes.point(i) - box.centre;
+    const auto &u  = box.state.nodes[i].u;
+    EXPECT_NEAR(u[0], -r[1] - r[0], 1e-12);
+    EXPECT_NEAR(u[1], r[0] - r[1], 1e-12);
+    EXPECT_NEAR(u[2], 0., 1e-12);
+  }
+}
+
+// 5 N along y; 20 N m about x while it may turn about z, but not about y.
+TEST(SpaceBlocks, ForcesAndMomentsAccelerateAPlaten)
+{
+  Plate box({ { {}, component(LoadQuantity::force, "5"), {} } },
+            { { component(LoadQuantity::force, "20"),
+                component(LoadQuantity::velocity, "0"),
+                {} } });
+  box.begin();
+  box.step();
+  const Matrix &I  = box.inertia;
+  const double det = I[0][0] * I[2][2] - I[0][2] * I[2][0];
+  const Vector turned({ 20. * I[2][2] / det, 0., -20. * I[2][0] / det });
+  // The first step has half a step's velocity behind it.
+  const double by = box.spin()[0] / turned[0];
+  EXPECT_NEAR(by, box.dt, 0.51 * box.dt);
+  EXPECT_LT((box.spin() - by * turned).norm(), 1e-9 * by * turned.norm());
+  EXPECT_NE(turned[2], 0.);
+  EXPECT_NEAR(box.now().velocity[1], by * 5. / box.total, 1e-12 * by);
+  EXPECT_NEAR(box.platen->moments()[0], 20., 1e-12);
+  EXPECT_NEAR(box.platen->moments()[1], Vector(I * turned)[1],
+              1e-9 * std::abs(turned.norm() * I[0][0]));
+  EXPECT_EQ(box.platen->moments()[2], 0.);
+  EXPECT_EQ(box.platen->MotionConstraint<3>::resultant()[1], 5.);
 }
