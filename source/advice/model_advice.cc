@@ -355,6 +355,7 @@ namespace quoin
           and tetrahedra lock. */
       constexpr double locking_poisson = 0.45;
       if (parameters.cells.kind != TriangleKind::plain
+          || parameters.cells.mixed_tetrahedra
           || parameters.model.plane != PlaneAssumption::plane_strain)
         return;
       std::vector<unsigned int> is_used(parameters.model.materials.size(), 0);
@@ -372,8 +373,9 @@ namespace quoin
                      dim == 2 ? " plain triangles lock in plane strain, they "
                                 "are too stiff. Take 'Triangles = crossed' in "
                                 "section 'Mesh'."
-                              : " tetrahedra lock: they are too stiff. Refine "
-                                "the mesh until results no longer change.");
+                              : " plain tetrahedra lock, they are too stiff. "
+                                "Take 'Tetrahedra = mixed' in section "
+                                "'Mesh'.");
       }
     }
 

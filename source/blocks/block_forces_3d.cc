@@ -8,11 +8,43 @@
 #include <algorithm>
 #include <limits>
 
-#include "cell_strain.h"
+#include "mixed_cells.h"
 #include "tetrahedron_kernel.h"
 
 namespace quoin
 {
+  namespace
+  {
+    /** Motion of a cell and its rate of strain in the rotating frame. */
+    struct CellRate
+    {
+      CellMotion motion;
+      SpaceStrain strain;
+      SpaceTensor U; /**< dU/dt [1/s] */
+    };
+
+    CellRate cell_rate(const BlockForcesData<3> &data, const std::size_t cell,
+                       const NodeRecord<3> *nodes,
+                       const dealii::Tensor<1, 3> *velocity)
+    {
+      CellRate result;
+      result.motion = cell_motion(data, nodes, cell);
+      result.strain = SpaceStrain(result.motion.H);
+      const auto &R = result.strain.R;
+      const auto &n = data.cells[cell];
+      double d[3][3], L[3][3], A[3][3];
+      for (unsigned int q = 0; q < 3; ++q)
+        for (unsigned int i = 0; i < 3; ++i)
+          d[q][i] = velocity[n[q + 1]][i] - velocity[n[0]][i];
+      result.motion.geometry.gradient(d, L);
+      for (unsigned int r = 0; r < 3; ++r)
+        for (unsigned int c = 0; c < 3; ++c)
+          A[r][c] = R[0][r] * L[0][c] + R[1][r] * L[1][c] + R[2][r] * L[2][c];
+      result.U = PolarRate(result.strain, A).U;
+      return result;
+    }
+  } // namespace
+
   void BlockForces<3>::prepare(const BlockForcesData<3> &new_data,
                                const BlockForcesOptions &options)
   {
@@ -66,18 +98,24 @@ namespace quoin
                                      const std::size_t max_cells)
   {
     const unsigned int *const last = members.data() + members.size();
+    const unsigned int joined      = data.n_joined_cells();
     for (const unsigned int *begin = members.data(); begin != last;)
     {
       const std::size_t first_node = chunk_nodes.size();
       const unsigned int *end      = begin;
-      for (; end != last && std::size_t(end - begin) < max_cells; ++end)
+      for (; end != last && std::size_t(end - begin) < max_cells; end += joined)
       {
         std::vector<std::uint32_t> more;
-        for (const unsigned int node : data.cells[*end])
-          if (std::find(chunk_nodes.begin() + first_node, chunk_nodes.end(),
-                        node)
-              == chunk_nodes.end())
-            more.push_back(node);
+        const auto is_new = [&](const std::uint32_t node)
+        {
+          const auto old = chunk_nodes.begin() + first_node;
+          return std::find(old, chunk_nodes.end(), node) == chunk_nodes.end()
+                 && std::find(more.begin(), more.end(), node) == more.end();
+        };
+        for (unsigned int part = 0; part < joined; ++part)
+          for (const unsigned int node : data.cells[end[part]])
+            if (is_new(node))
+              more.push_back(node);
         if (chunk_nodes.size() - first_node + more.size()
             > ChunkNodes::max_size)
           break;
@@ -95,8 +133,11 @@ namespace quoin
   {
     const auto first = chunk_nodes.begin() + first_node;
     std::sort(first, chunk_nodes.end());
-    const std::size_t n_cells     = end - begin;
-    const std::size_t n_groups    = (n_cells + n_lanes - 1) / n_lanes;
+    // A lane takes the cells of a mixed tetrahedron one after the other.
+    const unsigned int joined     = data.n_joined_cells();
+    const std::size_t n_units     = (end - begin) / joined;
+    const std::size_t n_rounds    = (n_units + n_lanes - 1) / n_lanes;
+    const std::size_t n_groups    = n_rounds * joined;
     const std::size_t first_group = offsets.size() / (4 * n_lanes);
     chunks.push_back({ first_node, chunk_nodes.size() - first_node, first_group,
                        n_groups, 0u, stiffness });
@@ -105,15 +146,17 @@ namespace quoin
       lane_stress.resize((first_group + n_groups) * 6 * n_lanes, 0.);
     for (std::size_t lane = 0; lane < n_lanes; ++lane)
     {
-      const std::size_t lane_begin = n_cells * lane / n_lanes;
-      const std::size_t lane_end   = n_cells * (lane + 1) / n_lanes;
+      const std::size_t lane_begin = n_units * lane / n_lanes;
+      const std::size_t lane_end   = n_units * (lane + 1) / n_lanes;
       for (std::size_t k = 0; k < n_groups; ++k)
       {
-        // Pieces have the same length or end one group earlier.
-        const bool present = lane_begin + k < lane_end;
-        if (present && k + 1 == n_groups)
+        // Pieces have the same length or end one round earlier.
+        const std::size_t round = k / joined;
+        const bool present      = lane_begin + round < lane_end;
+        if (present && round + 1 == n_rounds)
           chunks.back().last_mask |= 1u << lane;
-        const unsigned int cell = begin[present ? lane_begin + k : n_cells - 1];
+        const std::size_t unit  = present ? lane_begin + round : n_units - 1;
+        const unsigned int cell = begin[joined * unit + k % joined];
         const std::size_t group = first_group + k;
         for (unsigned int i = 0; i < 4; ++i)
           offsets[(4 * group + i) * n_lanes + lane]
@@ -134,6 +177,12 @@ namespace quoin
                                            const NodeRecord<3> *nodes,
                                            dealii::Tensor<1, 3> *force) const
   {
+    const bool with_stress = !lane_stress.empty();
+    const auto add         = data.mixed
+                                 ? (with_stress ? add_mixed_tetrahedra<lanes, true>
+                                                : add_mixed_tetrahedra<lanes, false>)
+                                 : (with_stress ? add_tetrahedra<lanes, true>
+                                                : add_tetrahedra<lanes, false>);
     ChunkNodes copies;
     for (std::size_t c = tile.begin_chunk; c < tile.end_chunk; ++c)
     {
@@ -142,13 +191,9 @@ namespace quoin
       copies.load(names, chunk.n_nodes, nodes);
       const std::uint16_t *offset  = &offsets[4 * lanes * chunk.first_group];
       const SpaceStiffness &moduli = data.stiffness[chunk.stiffness];
-      if (lane_stress.empty())
-        add_tetrahedra<lanes, false>(offset, chunk.n_groups, chunk.last_mask,
-                                     moduli, nullptr, copies);
-      else
-        add_tetrahedra<lanes, true>(
-            offset, chunk.n_groups, chunk.last_mask, moduli,
-            &lane_stress[6 * lanes * chunk.first_group], copies);
+      const double *stress
+          = with_stress ? &lane_stress[6 * lanes * chunk.first_group] : nullptr;
+      add(offset, chunk.n_groups, chunk.last_mask, moduli, stress, copies);
       copies.add_forces(names, chunk.n_nodes, force);
     }
   }
@@ -163,10 +208,10 @@ namespace quoin
     else
       add_forces_in_lanes<4>(tiles[tile], nodes, force);
     double dissipated = 0.;
+    const auto add    = data.mixed ? add_mixed_forces : add_plastic_forces;
     for (std::size_t k = tiles[tile].begin_plastic; k < tiles[tile].end_plastic;
-         ++k)
-      dissipated
-          += add_plastic_forces(data, plastic_cells[k], nodes, history, force);
+         k += data.n_joined_cells())
+      dissipated += add(data, plastic_cells[k], nodes, history, force);
     return dissipated;
   }
 
@@ -203,43 +248,59 @@ namespace quoin
                                           const double beta,
                                           dealii::Tensor<1, 3> *force) const
   {
-    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
-         ++k)
+    const unsigned int joined = data.n_joined_cells();
+    OfMixed<CellRate> cells;
+    for (std::size_t first = tiles[tile].cells.begin;
+         first < tiles[tile].cells.end; first += joined)
     {
-      const CellMotion motion = cell_motion(data, nodes, k);
-      const SpaceStrain strain(motion.H);
-      const auto &R = strain.R;
-      const auto &n = data.cells[k];
-      double d[3][3], L[3][3], A[3][3], T[3][3];
-      for (unsigned int q = 0; q < 3; ++q)
-        for (unsigned int i = 0; i < 3; ++i)
-          d[q][i] = velocity[n[q + 1]][i] - velocity[n[0]][i];
-      motion.geometry.gradient(d, L);
-      for (unsigned int r = 0; r < 3; ++r)
-        for (unsigned int c = 0; c < 3; ++c)
-          A[r][c] = R[0][r] * L[0][c] + R[1][r] * L[1][c] + R[2][r] * L[2][c];
-      const PolarRate rate(strain, A);
-      SpaceTensor s = elastic_stress(data.stiffness_of(k), rate.U);
-      for (double &component : s)
-        component *= beta;
-      strain.turning_stress(s, T);
-      add_cell_forces(data, k, motion.geometry, R, T, force);
+      double volume = 0., growth = 0.;
+      for (unsigned int k = 0; k < joined; ++k)
+      {
+        cells[k] = cell_rate(data, first + k, nodes, velocity);
+        volume += cells[k].motion.geometry.det;
+        growth += cells[k].motion.geometry.det * trace(cells[k].U);
+      }
+      for (unsigned int k = 0; k < joined; ++k)
+      {
+        CellRate &cell = cells[k];
+        if (data.mixed)
+          add_trace(growth / volume - trace(cell.U), cell.U);
+        SpaceTensor s = elastic_stress(data.stiffness_of(first), cell.U);
+        for (double &component : s)
+          component *= beta;
+        double T[3][3];
+        cell.strain.turning_stress(s, T);
+        add_cell_forces(data, first + k, cell.motion.geometry, cell.strain.R, T,
+                        force);
+      }
     }
   }
 
   void BlockForces<3>::linearise(State<3> &state, const bool with_stiffness,
                                  const TakeElement<3> &take) const
   {
-    CellLinearisation cell;
     PlasticHistory &history = state.get<PlasticHistory>();
-    for (unsigned int c = 0; c < data.cells.size(); ++c)
+    const auto give         = [&](const auto &cell)
     {
-      linearise_cell(data, c, state.nodes.data(), history, cell,
-                     with_stiffness);
       state.energy.plastic += cell.dissipated;
       take({ cell.nodes.data(), cell.n_nodes, cell.force.data(),
              cell.stiffness[0].data(), unsigned(cell.force.size()) });
-    }
+    };
+    CellLinearisation cell;
+    MixedLinearisation tetrahedron;
+    for (unsigned int c = 0; c < data.cells.size(); c += data.n_joined_cells())
+      if (data.mixed)
+      {
+        linearise_mixed(data, c, state.nodes.data(), history, tetrahedron,
+                        with_stiffness);
+        give(tetrahedron);
+      }
+      else
+      {
+        linearise_cell(data, c, state.nodes.data(), history, cell,
+                       with_stiffness);
+        give(cell);
+      }
   }
 
   void BlockForces<3>::prepare(State<3> &state) const
@@ -272,6 +333,12 @@ namespace quoin
                                 PlasticHistory &history) const
   {
     double dissipated = 0.;
+    if (data.mixed)
+    {
+      for (std::size_t i = 0; i < plastic_cells.size(); i += parts_of_mixed)
+        dissipated += update_mixed(data, plastic_cells[i], nodes, history);
+      return dissipated;
+    }
     for (const unsigned int k : plastic_cells)
     {
       const CellMotion motion = cell_motion(data, nodes, k);

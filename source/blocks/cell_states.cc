@@ -225,6 +225,7 @@ namespace quoin
 
   std::array<double, 4> stress_of_strain(const BlockForces<2> &blocks,
                                          const NodeRecord<2> *nodes,
+                                         const PlasticHistory &,
                                          const std::size_t cell,
                                          const PlaneStiffness &stiffness)
   {
@@ -257,13 +258,13 @@ namespace quoin
 
   void take_over_stress(const BlockForces<2> &blocks,
                         const NodeRecord<2> *nodes, const std::size_t cell,
-                        const MohrCoulomb &law, PlasticHistory &history)
+                        const MohrCoulomb &law, const PlasticHistory &before,
+                        PlasticHistory &history)
   {
     const BlockForcesData<2> &data = blocks.cell_data();
-    PlasticPoint point             = plastic_point(history, cell);
+    PlasticPoint point             = plastic_point(before, cell);
     law.take_over(
-        point,
-        elastic_strain(cell_gradient(data, nodes, cell), history, cell).e,
+        point, elastic_strain(cell_gradient(data, nodes, cell), before, cell).e,
         *data.law_of(cell));
     set_plastic_point(point, cell, history);
   }

@@ -3,7 +3,7 @@
 
 #include <quoin/blocks/cell_states.h>
 
-#include "cell_strain.h"
+#include "mixed_cells.h"
 
 namespace quoin
 {
@@ -27,8 +27,47 @@ namespace quoin
                                   const PlasticHistory &history,
                                   const std::size_t cell)
     {
+      if (data.mixed)
+      {
+        const std::size_t first = cell - cell % parts_of_mixed;
+        return MixedCells(data, nodes, first, mixed_points(history, first))
+            .strain[cell - first];
+      }
       return elastic_strain(cell_motion(data, nodes, cell).H,
                             history.space_cells[cell].inverse_stretch);
+    }
+
+    /** cell_stress() of the cells of a mixed tetrahedron. */
+    OfMixed<SpaceTensor> mixed_stresses(const BlockForcesData<3> &data,
+                                        const NodeRecord<3> *nodes,
+                                        const PlasticHistory &history,
+                                        const std::size_t first)
+    {
+      auto points = mixed_points(history, first);
+      MixedCells cells(data, nodes, first, points);
+      const SpaceMohrCoulomb *law = data.law_of(first);
+      if (law)
+      {
+        points = update_mixed(data, first, points, cells).points;
+        cells  = MixedCells(data, nodes, first, points);
+      }
+      OfMixed<SpaceTensor> result;
+      for (unsigned int k = 0; k < parts_of_mixed; ++k)
+      {
+        const SpaceStrain &strain = cells.strain[k];
+        const SpaceTensor initial = data.initial_stress_of(first + k);
+        SpaceTensor s;
+        if (law)
+          s = law->cauchy_stress(points[k], strain, initial);
+        else
+        {
+          s = elastic_stress(data.stiffness_of(first), strain.e);
+          for (unsigned int i = 0; i < 6; ++i)
+            s[i] += initial[i];
+        }
+        result[k] = strain.to_global(s);
+      }
+      return result;
     }
 
     double contraction(const SpaceTensor &a, const SpaceTensor &b)
@@ -138,7 +177,15 @@ namespace quoin
                                  const unsigned int cell)
   {
     const BlockForcesData<3> &data = blocks.cell_data();
-    SpacePlasticPoint point        = space_plastic_point(history, cell);
+    if (data.mixed)
+    {
+      const std::size_t first = cell - cell % parts_of_mixed;
+      const auto points       = mixed_points(history, first);
+      return update_mixed(data, first, points,
+                          MixedCells(data, nodes, first, points))
+          .points[cell - first];
+    }
+    SpacePlasticPoint point = space_plastic_point(history, cell);
     data.law_of(cell)->update(point,
                               elastic_strain_of(data, nodes, history, cell),
                               data.initial_stress_of(cell));
@@ -153,8 +200,13 @@ namespace quoin
     const BlockForcesData<3> &data = blocks.cell_data();
     const NodeRange cells          = blocks.tile_cells(tile);
     double dissipated              = 0.;
-    for (std::size_t k = cells.begin; k < cells.end; ++k)
+    for (std::size_t k = cells.begin; k < cells.end; k += data.n_joined_cells())
     {
+      if (data.mixed)
+      {
+        dissipated += add_mixed_forces(data, k, nodes, history, force);
+        continue;
+      }
       if (data.law_of(k))
       {
         dissipated += add_plastic_forces(data, k, nodes, history, force);
@@ -178,8 +230,13 @@ namespace quoin
   {
     const BlockForcesData<3> &data = blocks.cell_data();
     double energy                  = 0.;
-    for (std::size_t k = 0; k < data.cells.size(); ++k)
+    for (std::size_t k = 0; k < data.cells.size(); k += data.n_joined_cells())
     {
+      if (data.mixed)
+      {
+        energy += mixed_energy(data, nodes, history, k);
+        continue;
+      }
       const CellMotion motion        = cell_motion(data, nodes, k);
       const SpaceTensor s0           = data.initial_stress_of(k);
       const SpaceMohrCoulomb *yields = data.law_of(k);
@@ -213,6 +270,10 @@ namespace quoin
     const SpaceStrain strain(motion.H);
     if (strain_out)
       *strain_out = strain.to_global(strain.e);
+    if (data.mixed)
+      return mixed_stresses(data, nodes, history,
+                            cell
+                                - cell % parts_of_mixed)[cell % parts_of_mixed];
     const SpaceTensor s0 = data.initial_stress_of(cell);
     if (const SpaceMohrCoulomb *yields = data.law_of(cell))
     {
@@ -237,18 +298,40 @@ namespace quoin
     const std::size_t n_cells = blocks.cell_data().cells.size();
     stress.resize(n_cells);
     strain.resize(n_cells);
-    for (std::size_t k = 0; k < n_cells; ++k)
-      stress[k] = cell_stress(blocks, nodes, history, k, &strain[k]);
+    const BlockForcesData<3> &data = blocks.cell_data();
+    if (!data.mixed)
+    {
+      for (std::size_t k = 0; k < n_cells; ++k)
+        stress[k] = cell_stress(blocks, nodes, history, k, &strain[k]);
+      return;
+    }
+    for (std::size_t first = 0; first < n_cells; first += parts_of_mixed)
+    {
+      const auto stresses = mixed_stresses(data, nodes, history, first);
+      std::copy(stresses.begin(), stresses.end(), stress.begin() + first);
+      for (std::size_t k = first; k < first + parts_of_mixed; ++k)
+      {
+        const SpaceStrain own(cell_motion(data, nodes, k).H);
+        strain[k] = own.to_global(own.e);
+      }
+    }
   }
 
   SpaceTensor stress_of_strain(const BlockForces<3> &blocks,
                                const NodeRecord<3> *nodes,
+                               const PlasticHistory &history,
                                const std::size_t cell,
                                const SpaceStiffness &stiffness)
   {
-    return elastic_stress(
-        stiffness,
-        SpaceStrain(cell_motion(blocks.cell_data(), nodes, cell).H).e);
+    const BlockForcesData<3> &data = blocks.cell_data();
+    SpaceTensor e = SpaceStrain(cell_motion(data, nodes, cell).H).e;
+    if (data.mixed)
+    {
+      const std::size_t first = cell - cell % parts_of_mixed;
+      const MixedCells cells(data, nodes, first, mixed_points(history, first));
+      add_trace((cells.mean - cells.mean_initial) / cells.bulk - trace(e), e);
+    }
+    return elastic_stress(stiffness, e);
   }
 
   SpaceTensor turning_stress(const BlockForces<3> &blocks,
@@ -259,7 +342,8 @@ namespace quoin
     const BlockForcesData<3> &data = blocks.cell_data();
     const CellMotion motion        = cell_motion(data, nodes, cell);
     const auto &Q                  = history.space_cells[cell].inverse_stretch;
-    const SpaceStrain whole(motion.H), strain = elastic_strain(motion.H, Q);
+    const SpaceStrain whole(motion.H),
+        strain = elastic_strain_of(data, nodes, history, cell);
     double T[3][3], PQ[3][3];
     strain.turning_stress(
         data.law_of(cell)->trial_stress(space_plastic_point(history, cell),
@@ -286,11 +370,12 @@ namespace quoin
 
   void take_over_stress(const BlockForces<3> &blocks,
                         const NodeRecord<3> *nodes, const std::size_t cell,
-                        const SpaceMohrCoulomb &law, PlasticHistory &history)
+                        const SpaceMohrCoulomb &law,
+                        const PlasticHistory &before, PlasticHistory &history)
   {
     const BlockForcesData<3> &data = blocks.cell_data();
-    SpacePlasticPoint point        = space_plastic_point(history, cell);
-    law.take_over(point, elastic_strain_of(data, nodes, history, cell),
+    SpacePlasticPoint point        = space_plastic_point(before, cell);
+    law.take_over(point, elastic_strain_of(data, nodes, before, cell),
                   *data.law_of(cell));
     set_plastic_point(point, cell, history);
   }

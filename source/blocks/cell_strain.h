@@ -44,6 +44,17 @@ namespace quoin
   CellMotion cell_motion(const BlockForcesData<3> &data,
                          const NodeRecord<3> *nodes, std::size_t cell);
 
+  inline double trace(const SpaceTensor &t)
+  {
+    return t[0] + t[1] + t[2];
+  }
+  /** Adds an isotropic tensor of that trace. */
+  inline void add_trace(const double a, SpaceTensor &t)
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+      t[i] += a / 3.;
+  }
+
   SpaceTensor elastic_stress(const SpaceStiffness &stiffness,
                              const SpaceTensor &e);
 

@@ -1,20 +1,43 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/blocks/cell_tangent.h>
-
-#include "cell_strain.h"
+#include "cell_linearisation.h"
 
 namespace quoin
 {
+  std::array<std::array<double, 3>, 4>
+  shape_gradients(const Tetrahedron<OneLane> &geometry)
+  {
+    std::array<std::array<double, 3>, 4> g{};
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        g[k + 1][i] = geometry.cofactor[k][i] / geometry.det;
+        g[0][i] -= g[k + 1][i];
+      }
+    return g;
+  }
+
+  std::array<double, 12> nodal_forces(const Tetrahedron<OneLane> &geometry,
+                                      const SpaceMatrix &stress)
+  {
+    double P[3][3], f[3][3];
+    for (unsigned int r = 0; r < 3; ++r)
+      for (unsigned int c = 0; c < 3; ++c)
+        P[r][c] = -stress[r][c] / 6.;
+    geometry.nodal_forces(P, f);
+    std::array<double, 12> force{};
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        force[3 * (k + 1) + i] = f[k][i];
+        force[i] -= f[k][i];
+      }
+    return force;
+  }
+
   namespace
   {
-    /** Change of the displacement gradient in a difference [-]: small beside
-        the strains at which materials yield, large beside rounding. */
-    constexpr double difference = 1e-8;
-
-    using Matrix = std::array<std::array<double, 3>, 3>;
-
     /** A cell whose displacement gradient changes while its history does not.
      */
     struct FlowingCell
@@ -26,8 +49,8 @@ namespace quoin
       /** Stress R T [Pa] by the forces on gradients on which (I + Q) has acted.
           Updates @p after, the history, and the energy @p dissipated [J/m^3].
        */
-      Matrix stress(const double (&H)[3][3], SpacePlasticPoint &after,
-                    double &dissipated) const
+      SpaceMatrix stress(const double (&H)[3][3], SpacePlasticPoint &after,
+                         double &dissipated) const
       {
         double Q[6], T[3][3];
         std::copy(before.inverse_stretch.begin(), before.inverse_stretch.end(),
@@ -37,7 +60,7 @@ namespace quoin
         const SpacePlasticStep step = law.update(after, strain, initial_stress);
         dissipated                  = step.dissipated;
         strain.turning_stress(step.stress, T);
-        Matrix P{};
+        SpaceMatrix P{};
         for (unsigned int r = 0; r < 3; ++r)
           for (unsigned int c = 0; c < 3; ++c)
             for (unsigned int i = 0; i < 3; ++i)
@@ -45,25 +68,6 @@ namespace quoin
         return P;
       }
     };
-
-    /** Forces of @p stress on the nodes of a tetrahedron [N]. */
-    std::array<double, 12> nodal_forces(const Tetrahedron<OneLane> &geometry,
-                                        const Matrix &stress)
-    {
-      double P[3][3], f[3][3];
-      for (unsigned int r = 0; r < 3; ++r)
-        for (unsigned int c = 0; c < 3; ++c)
-          P[r][c] = -stress[r][c] / 6.;
-      geometry.nodal_forces(P, f);
-      std::array<double, 12> force{};
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int i = 0; i < 3; ++i)
-        {
-          force[3 * (k + 1) + i] = f[k][i];
-          force[i] -= f[k][i];
-        }
-      return force;
-    }
 
     /** linearise_cell() of a cell with a yield law: the derivative is that of
         its update, by central differences of the displacement gradient. */
@@ -81,7 +85,7 @@ namespace quoin
 
       SpacePlasticPoint after;
       double dissipated;
-      const Matrix stress = own.stress(motion.H, after, dissipated);
+      const SpaceMatrix stress = own.stress(motion.H, after, dissipated);
       set_plastic_point(after, cell, history);
       result.n_nodes    = 4;
       result.dissipated = motion.geometry.det / 6. * dissipated;
@@ -92,14 +96,7 @@ namespace quoin
       if (!with_stiffness)
         return;
 
-      double gradients[4][3]{}; // of the shape functions [1/m]
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int j = 0; j < 3; ++j)
-        {
-          gradients[k + 1][j]
-              = motion.geometry.cofactor[k][j] / motion.geometry.det;
-          gradients[0][j] -= gradients[k + 1][j];
-        }
+      const auto gradients = shape_gradients(motion.geometry);
       for (auto &row : result.stiffness)
         row.fill(0.);
       for (unsigned int i = 0; i < 3; ++i)
@@ -108,15 +105,16 @@ namespace quoin
           const double H = motion.H[i][j];
           SpacePlasticPoint unused;
           double lost;
-          motion.H[i][j]     = H + difference;
-          const Matrix plus  = own.stress(motion.H, unused, lost);
-          motion.H[i][j]     = H - difference;
-          const Matrix minus = own.stress(motion.H, unused, lost);
-          motion.H[i][j]     = H;
-          Matrix slope;
+          motion.H[i][j]          = H + gradient_difference;
+          const SpaceMatrix plus  = own.stress(motion.H, unused, lost);
+          motion.H[i][j]          = H - gradient_difference;
+          const SpaceMatrix minus = own.stress(motion.H, unused, lost);
+          motion.H[i][j]          = H;
+          SpaceMatrix slope;
           for (unsigned int r = 0; r < 3; ++r)
             for (unsigned int c = 0; c < 3; ++c)
-              slope[r][c] = (plus[r][c] - minus[r][c]) / (2. * difference);
+              slope[r][c]
+                  = (plus[r][c] - minus[r][c]) / (2. * gradient_difference);
           const auto change = nodal_forces(flowed, slope);
           for (unsigned int k = 0; k < 4; ++k)
             for (unsigned int q = 0; q < 12; ++q)
@@ -125,41 +123,25 @@ namespace quoin
     }
   } // namespace
 
-  bool linearise_cell(const BlockForcesData<3> &data, const unsigned int cell,
-                      const NodeRecord<3> *nodes, PlasticHistory &history,
-                      CellLinearisation &result, const bool with_stiffness)
+  void linearise_elastic(const CellMotion &motion, const SpaceStrain &strain,
+                         const ElasticCellStress &stress,
+                         CellLinearisation &result, const bool with_stiffness)
   {
-    if (data.law_of(cell) && !history.space_cells.empty())
-    {
-      linearise_plastic(data, cell, nodes, history, result, with_stiffness);
-      return true;
-    }
-    const CellMotion motion = cell_motion(data, nodes, cell);
-    const SpaceStrain strain(motion.H);
-    const auto &polar       = strain.polar;
-    const auto &R           = strain.R;
-    const double volume     = motion.geometry.det / 6.;
-    const SpaceStiffness &C = data.stiffness_of(cell);
+    const auto &polar   = strain.polar;
+    const auto &R       = strain.R;
+    const double volume = motion.geometry.det / 6.;
     double e[6], S0[6], T[3][3];
     std::copy(strain.e.begin(), strain.e.end(), e);
-    const SpaceTensor initial = data.initial_stress_of(cell);
-    std::copy(initial.begin(), initial.end(), S0);
+    std::copy(stress.initial.begin(), stress.initial.end(), S0);
     polar.turning_stress(S0, e, T);
     double w[3], y[3]; // of the turning stress
     polar.commutator(S0, e, w);
     polar.solve_spin(w, y);
-    const SpaceTensor elastic = elastic_stress(C, strain.e);
     for (unsigned int r = 0; r < 3; ++r)
       for (unsigned int c = 0; c < 3; ++c)
-        T[r][c] += elastic[symmetric_index[r][c]];
+        T[r][c] += stress.elastic[symmetric_index[r][c]];
 
-    double g[4][3]{};
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-      {
-        g[k + 1][i] = motion.geometry.cofactor[k][i] / motion.geometry.det;
-        g[0][i] -= g[k + 1][i];
-      }
+    const auto g = shape_gradients(motion.geometry);
     // V (R T) grad N of all nodes.
     const auto nodal = [&](const double(&T)[3][3], double *f)
     {
@@ -174,13 +156,11 @@ namespace quoin
     };
     result.n_nodes    = 4;
     result.dissipated = 0.;
-    std::copy(data.cells[cell].begin(), data.cells[cell].end(),
-              result.nodes.begin());
     nodal(T, result.force.data());
     for (double &f : result.force)
       f = -f;
     if (!with_stiffness)
-      return true;
+      return;
 
     for (unsigned int k = 0; k < 4; ++k)
       for (unsigned int i = 0; i < 3; ++i)
@@ -191,7 +171,7 @@ namespace quoin
             A[r][c] = R[i][r] * g[k][c];
         const PolarRate rate(strain, A);
         std::copy(rate.U.begin(), rate.U.end(), dU);
-        const SpaceTensor dS = elastic_stress(C, rate.U);
+        const SpaceTensor dS = elastic_stress(stress.rate, rate.U);
         // From (tr U I - U) y = w.
         double dw[3], dy[3];
         polar.commutator(S0, dU, dw);
@@ -218,6 +198,26 @@ namespace quoin
         for (unsigned int q = 0; q < 12; ++q)
           result.stiffness[q][3 * k + i] = column[q];
       }
+  }
+
+  bool linearise_cell(const BlockForcesData<3> &data, const unsigned int cell,
+                      const NodeRecord<3> *nodes, PlasticHistory &history,
+                      CellLinearisation &result, const bool with_stiffness)
+  {
+    if (data.law_of(cell) && !history.space_cells.empty())
+    {
+      linearise_plastic(data, cell, nodes, history, result, with_stiffness);
+      return true;
+    }
+    const CellMotion motion = cell_motion(data, nodes, cell);
+    const SpaceStrain strain(motion.H);
+    const SpaceStiffness &C = data.stiffness_of(cell);
+    std::copy(data.cells[cell].begin(), data.cells[cell].end(),
+              result.nodes.begin());
+    linearise_elastic(
+        motion, strain,
+        { data.initial_stress_of(cell), elastic_stress(C, strain.e), C },
+        result, with_stiffness);
     return true;
   }
 } // namespace quoin

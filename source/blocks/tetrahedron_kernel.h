@@ -7,6 +7,7 @@
 #include <quoin/base/lanes.h>
 #include <quoin/base/node_record.h>
 #include <quoin/blocks/tetrahedron.h>
+#include <quoin/mesh/mixed_tetrahedra.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -101,14 +102,15 @@ namespace quoin
         polar.find_tensors();
       }
 
-      /** @p moduli and @p stress are times -1/6. */
+      /** @p isotropic: lambda tr e, or what is in its place; it, @p mu and
+          @p stress are times -1/6. */
       QUOIN_INLINE void add_forces(const std::uint16_t *offset,
-                                   const LameModuli<L> &moduli,
+                                   const Value &isotropic, const Value &mu,
                                    const double *stress, ChunkNodes &nodes)
       {
         char *sums = reinterpret_cast<char *>(nodes.force);
         Value P[3][3], f[3][3], rest[4]{};
-        polar.elastic_stress(moduli, P);
+        polar.elastic_stress(isotropic, mu, P);
         if constexpr (with_stress)
         {
           Value S[6], R[3][3], e[6], T[3][3];
@@ -134,6 +136,16 @@ namespace quoin
         L::add_rows(sums, offset, rest);
       }
     };
+
+    /** Lanes without a bit in @p mask get no stiffness. */
+    template <int lanes>
+    QUOIN_INLINE void keep_lanes(const unsigned int mask,
+                                 LameModuli<Lanes<lanes>> &moduli)
+    {
+      for (int l = 0; l < lanes; ++l)
+        if (!(mask >> l & 1))
+          moduli.lambda[l] = moduli.mu[l] = 0.;
+    }
 
     /**
      * Adds the forces of @p n groups to those of the nodes. Lanes without a
@@ -162,12 +174,49 @@ namespace quoin
         if (g + 1 < n)
           group[(g + 1) % 2].load(offset + 4 * lanes, nodes);
         else
-          for (int l = 0; l < lanes; ++l)
-            if (!(last_mask >> l & 1))
-              moduli.lambda[l] = moduli.mu[l] = 0.;
-        now.add_forces(offset, moduli, stress, nodes);
+          keep_lanes<lanes>(last_mask, moduli);
+        now.add_forces(offset, moduli.lambda * now.polar.a, moduli.mu, stress,
+                       nodes);
         offset += 4 * lanes;
         stress += stress_stride;
+      }
+    }
+
+    /** add_tetrahedra() of mixed ones, each eight groups. The cells of a lane
+        share K times the mean of their tr e by volume, K = lambda + 2/3 mu. */
+    template <int lanes, bool with_stress>
+    __attribute__((noinline)) void
+    add_mixed_tetrahedra(const std::uint16_t *offset, const std::size_t n,
+                         const unsigned int last_mask,
+                         const SpaceStiffness &stiffness, const double *stress,
+                         ChunkNodes &nodes)
+    {
+      using Value                 = typename Lanes<lanes>::Value;
+      constexpr int stress_stride = with_stress ? 6 * lanes : 0;
+      LameModuli<Lanes<lanes>> moduli{ Value{} - stiffness.lambda / 6.,
+                                       Value{} - stiffness.mu / 6. };
+      TetrahedronGroup<lanes, with_stress> group[parts_of_mixed];
+      for (std::size_t g = 0; g < n; g += parts_of_mixed)
+      {
+        if (g + parts_of_mixed == n)
+          keep_lanes<lanes>(last_mask, moduli);
+        Value volume{}, growth{};
+        for (unsigned int k = 0; k < parts_of_mixed; ++k)
+        {
+          group[k].load(offset + 4 * lanes * k, nodes);
+          group[k].polar.find_trace();
+          volume += group[k].cell.det;
+          growth += group[k].cell.det * group[k].polar.a;
+        }
+        const Value two_thirds = moduli.mu * (2. / 3.);
+        const Value mean = (moduli.lambda + two_thirds) * (growth / volume);
+        for (unsigned int k = 0; k < parts_of_mixed; ++k)
+        {
+          group[k].add_forces(offset, mean - two_thirds * group[k].polar.a,
+                              moduli.mu, stress, nodes);
+          offset += 4 * lanes;
+          stress += stress_stride;
+        }
       }
     }
   } // namespace

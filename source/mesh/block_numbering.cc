@@ -81,22 +81,23 @@ namespace quoin
     }
 
     /**
-     * Cells by block, within a block along a Hilbert curve.
+     * Cells by block, within a block along a Hilbert curve; the parts of a
+     * mixed tetrahedron stay together.
      */
     template <int dim>
     std::vector<unsigned int>
     order_cells(const BlockMesh<dim> &mesh,
                 const std::vector<unsigned int> &block_of_cell)
     {
-      constexpr int bits   = dim == 2 ? 31 : 21; // 64 hold them all
-      const unsigned int n = mesh.n_cells();
-      std::vector<dealii::Point<dim>> centres(n);
+      constexpr int bits        = dim == 2 ? 31 : 21; // 64 hold them all
+      const unsigned int n      = mesh.n_cells();
+      const unsigned int joined = mesh.n_joined_cells();
+      std::vector<dealii::Point<dim>> centres(n / joined);
       for (unsigned int i = 0; i < n; ++i)
-      {
         for (const unsigned int v : mesh.cells[i])
-          centres[i] += mesh.vertices[v];
-        centres[i] = centres[i] / (dim + 1.);
-      }
+          centres[i / joined] += mesh.vertices[v];
+      for (dealii::Point<dim> &centre : centres)
+        centre = centre / ((dim + 1.) * joined);
       const auto places
           = dealii::Utilities::inverse_Hilbert_space_filling_curve(centres,
                                                                    bits);
@@ -110,7 +111,8 @@ namespace quoin
       std::vector<Entry> entries(n);
       for (unsigned int i = 0; i < n; ++i)
         entries[i] = { block_of_cell[i], i,
-                       dealii::Utilities::pack_integers<dim>(places[i], bits) };
+                       dealii::Utilities::pack_integers<dim>(places[i / joined],
+                                                             bits) };
       std::sort(entries.begin(), entries.end(),
                 [](const Entry &a, const Entry &b)
                 {

@@ -397,6 +397,7 @@ namespace quoin
       mesh.cell_group = data.cell_group;
 
       mesh.quadratic = data.quadratic;
+      mesh.mixed     = data.mixed;
     }
 
     template <int dim>

@@ -231,6 +231,7 @@ namespace quoin
       table.n_vertices    = mesh.n_vertices();
       table.n_joint_faces = mesh.joint_faces.size();
       table.is_quadratic  = mesh.quadratic;
+      table.is_mixed      = mesh.mixed;
       std::tie(table.box[0], table.box[1])
           = dealii::BoundingBox<dim>(mesh.vertices).get_boundary_points();
       return table;

@@ -5,6 +5,7 @@
 #include <quoin/mesh/crossed_triangles.h>
 #include <quoin/mesh/gmsh_process.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/mesh/mixed_tetrahedra.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -58,7 +59,7 @@ namespace quoin
     /** Takes what quoin_gmsh gave for a mesh of that dimension. */
     template <int dim>
     MeshData<dim> take(GmshMesh &read, const std::string &source,
-                       const TriangleKind kind)
+                       const CellOptions &cells)
     {
       MeshData<dim> mesh;
       mesh.source = source;
@@ -80,7 +81,7 @@ namespace quoin
         add_crossed_triangles(
             { std::move(read.quadrangles), std::move(read.quadrangle_group) },
             mesh);
-        mesh.quadratic = kind == TriangleKind::quadratic;
+        mesh.quadratic = cells.kind == TriangleKind::quadratic;
       }
       else
       {
@@ -88,6 +89,16 @@ namespace quoin
         mesh.faces = std::move(read.triangles);
       }
       orient_cells(mesh);
+      if (cells.mixed_tetrahedra)
+      {
+        if constexpr (dim == 3)
+          make_mixed(mesh);
+        else
+          fail_on_mesh(source, "it is plane, and 'Tetrahedra = mixed' in "
+                               "section 'Mesh' is for three dimensions. Set "
+                               "'Tetrahedra = plain'; against locking in the "
+                               "plane there is 'Triangles = crossed'.");
+      }
       return mesh;
     }
 
@@ -108,8 +119,8 @@ namespace quoin
       if (!read.refusal.empty())
         fail_on_mesh(source, read.refusal);
       if (read.dimension == 3)
-        return take<3>(read, source, cells.kind);
-      return take<2>(read, source, cells.kind);
+        return take<3>(read, source, cells);
+      return take<2>(read, source, cells);
     }
 
     AnyMeshData read_file(const std::string &filename,

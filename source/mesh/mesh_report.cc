@@ -449,6 +449,7 @@ namespace quoin
     report.n_nodes            = mesh.n_vertices();
     report.n_joint_faces      = mesh.joint_faces.size();
     report.quadratic          = mesh.quadratic;
+    report.mixed              = mesh.mixed;
     report.n_reoriented_cells = mesh.n_reoriented_cells;
     if (report.n_cells == 0)
       return report;
@@ -480,9 +481,11 @@ namespace quoin
     const char *unit    = is_plane ? " m" : " m2";
     text << n_blocks << " blocks, " << n_cells
          << (quadratic ? " quadratic" : "")
-         << (is_plane ? " triangles, " : " tetrahedra, ") << n_nodes
-         << " nodes; x " << box[0][0] << " to " << box[1][0] << " m, y "
-         << box[0][1] << " to " << box[1][1] << " m";
+         << (is_plane ? " triangles, "
+             : mixed  ? " parts of mixed tetrahedra, "
+                      : " tetrahedra, ")
+         << n_nodes << " nodes; x " << box[0][0] << " to " << box[1][0]
+         << " m, y " << box[0][1] << " to " << box[1][1] << " m";
     if (!is_plane)
       text << ", z " << box[0][2] << " to " << box[1][2] << " m";
     text << "\nedges " << shortest_edge << " to " << longest_edge

@@ -353,12 +353,21 @@ namespace quoin
                                               return node_exchange->local(node)
                                                      >= shared_nodes_begin;
                                             }));
-      parts.back().first_inner_cell += n_parts * is_at_others.back();
       parts.back().cells[1] = begin + n_parts;
     }
+    if (table().is_mixed)
+      for (auto first = is_at_others.begin(); first != is_at_others.end();
+           first += parts_of_mixed)
+        std::fill_n(first, parts_of_mixed,
+                    std::find(first, first + parts_of_mixed, true)
+                        != first + parts_of_mixed);
     std::vector<unsigned int> cell_place;
-    for (const BlockPart &part : parts)
+    for (BlockPart &part : parts)
     {
+      part.first_inner_cell
+          += n_parts
+             * std::count(is_at_others.begin() + part.cells[0] / n_parts,
+                          is_at_others.begin() + part.cells[1] / n_parts, true);
       unsigned int at_others = part.cells[0] / n_parts,
                    inner     = part.first_inner_cell / n_parts;
       for (unsigned int c = part.cells[0] / n_parts;

@@ -140,8 +140,11 @@ namespace quoin
 
     // Whole blocks; if they do not balance, large ones in pieces of consecutive
     // cells, which the numbering keeps near one another.
-    const unsigned int largest_piece = std::max<unsigned int>(
-        1, mesh.n_cells() / (pieces_per_rank * n_ranks));
+    const unsigned int joined = mesh.n_joined_cells();
+    const unsigned int largest_piece
+        = joined
+          * std::max<unsigned int>(
+              1, mesh.n_cells() / (joined * pieces_per_rank * n_ranks));
     for (const bool in_pieces : { false, true })
     {
       std::vector<unsigned int> unit_of_cell(mesh.n_cells());

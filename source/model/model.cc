@@ -161,6 +161,8 @@ namespace quoin
         thickness.push_back(material.thickness);
       data.thickness = Thickness(thickness);
     }
+    else
+      data.mixed = node_map.table().is_mixed;
     block_forces.prepare(data);
   }
 

@@ -51,33 +51,39 @@ namespace quoin
     const auto laws          = laws_of<dim>(properties.materials, plane);
     constexpr unsigned int n = ConstructionState<dim>::n_stresses;
     auto &initial = state.template get<ConstructionState<dim>>().initial_stress;
-    PlasticHistory &plastic = state.template get<PlasticHistory>();
+    PlasticHistory &plastic      = state.template get<PlasticHistory>();
+    const PlasticHistory present = plastic, never_yielded;
     for (unsigned int c = 0; c < local.n_deformable; ++c)
     {
       const unsigned int m     = properties.material_of_group[local.group[c]];
       const YieldLaw<dim> *law = laws[m] ? &*laws[m] : nullptr;
       const BlockForcesData<dim> &cells = blocks.cell_data();
       const auto *nodes                 = state.nodes.data();
-      const auto after = stress_of_strain(blocks, nodes, c, stiffness[m]);
-      CellStress<dim> bears;
-      if (cells.law_of(c) && plastic.yielding[c] != 0)
+      const auto before
+          = stress_of_strain(blocks, nodes, present, c, cells.stiffness_of(c));
+      const auto after = stress_of_strain(
+          blocks, nodes, law ? present : never_yielded, c, stiffness[m]);
+      const bool has_yielded = cells.law_of(c) && plastic.yielding[c] != 0;
+      if (has_yielded && law)
       {
-        // Its stress has nothing of the initial one any more.
-        if (law && !(cells.stiffness_of(c) == stiffness[m]))
-          take_over_stress(blocks, nodes, c, *law, plastic);
-        if (law)
+        // Its stress has nothing of the initial one any more, but others of a
+        // mixed tetrahedron may have.
+        if (!(cells.stiffness_of(c) == stiffness[m]))
+          take_over_stress(blocks, nodes, c, *law, present, plastic);
+        if (!model.nodes().table().is_mixed)
           continue;
-        bears = turning_stress(blocks, nodes, plastic, c);
+      }
+      CellStress<dim> bears = cells.initial_stress_of(c);
+      for (unsigned int k = 0; k < n; ++k)
+        bears[k] += before[k];
+      if (has_yielded && !law)
+      {
+        bears = turning_stress(blocks, nodes, present, c);
         forget_history(blocks, c, plastic);
       }
       else
       {
-        bears = cells.initial_stress_of(c);
-        const auto before
-            = stress_of_strain(blocks, nodes, c, cells.stiffness_of(c));
-        for (unsigned int k = 0; k < n; ++k)
-          bears[k] += before[k];
-        if (law)
+        if (law && !has_yielded)
           set_stress(bears, c, plastic);
         if (before == after)
           continue;

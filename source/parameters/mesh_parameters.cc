@@ -176,6 +176,14 @@ namespace quoin
           "diagonals, which do not lock in plastic flow; quadratic: triangles "
           "of 'plain' with nodes at the midpoints of their edges, for the "
           "implicit solver.");
+      entries.choice(
+          "Tetrahedra", parameters.cells.mixed_tetrahedra,
+          { { "plain", false }, { "mixed", true } },
+          "Type of the tetrahedra, in three dimensions. plain: those of the "
+          "file or of gmsh; mixed: each is cut into eight that share their "
+          "change of volume, which do not lock in plastic flow or with "
+          "Poisson's ratios near 0.5. Edges are half as long then: take a "
+          "mesh twice as coarse.");
       entries.integer(
           "Refinements", parameters.cells.refinements, 0,
           "Number of uniform refinements of the mesh, each of which divides "

@@ -97,6 +97,8 @@ CASES = {
                                   ["Implicit/First step=0.05",
                                    "Implicit/Largest step=0.05"]),
     "implicit, space": of_ranks("implicit, space", UP),
+    "mixed": of_ranks("mixed", ALL),
+    "implicit, mixed": of_ranks("implicit, mixed", UP),
     "implicit, quadratic": of_ranks("implicit, divided, cracked", UP,
                                     ["Mesh/Triangles=quadratic"]),
     "implicit, construction": (on_ranks.FILL,

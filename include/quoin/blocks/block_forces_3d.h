@@ -7,6 +7,7 @@
 #include <quoin/blocks/block_forces.h>
 #include <quoin/blocks/tetrahedron.h>
 #include <quoin/materials/space_mohr_coulomb.h>
+#include <quoin/mesh/mixed_tetrahedra.h>
 
 namespace quoin
 {
@@ -33,6 +34,17 @@ namespace quoin
     /** Stress of each cell at zero strain [Pa]; it turns with the cell.
         Empty: none. */
     AlignedArray<SpaceTensor> initial_stress;
+
+    /** Whether each eight cells are one mixed tetrahedron, whose mean stress,
+        less the own initial one, is the same in all of them; of equal
+        stiffness and law. */
+    bool mixed = false;
+
+    /** Consecutive cells that are computed together. */
+    unsigned int n_joined_cells() const
+    {
+      return mixed ? parts_of_mixed : 1;
+    }
 
     const SpaceStiffness &stiffness_of(const unsigned int cell) const
     {
@@ -71,7 +83,8 @@ namespace quoin
    * The cells of a tile are taken in chunks of few nodes, which are copied to
    * the first level cache before and added to the forces after. Lane l takes
    * the l-th part of a chunk, so that cells that are computed together have no
-   * nodes in common. Geometry is computed from the positions in each step:
+   * nodes in common; it takes the parts of a mixed tetrahedron one after the
+   * other. Geometry is computed from the positions in each step:
    * that is cheaper than to read it from memory. Cells that yield come one by
    * one after them.
    */
@@ -153,7 +166,8 @@ namespace quoin
       std::size_t n_nodes;
       std::size_t first_group; /**< index into offsets and lane_stress */
       std::size_t n_groups;
-      unsigned int last_mask; /**< lanes that have a cell in the last group */
+      unsigned int last_mask; /**< lanes that have a cell in the last group,
+                                 or the last eight of mixed tetrahedra */
       unsigned int stiffness; /**< index of the stiffness */
     };
 

@@ -26,7 +26,8 @@ namespace quoin
    * R S R^T and R e R^T. In the plane the stress is xx, yy, xy, zz, the strain
    * xx, yy, xy; in space both are 11, 22, 33, 12, 13, 23. The initial stress is
    * part of the stress. A cell with a yield law has Cauchy's stress instead, by
-   * its @p history updated for the positions.
+   * its @p history updated for the positions. In a mixed tetrahedron the stress
+   * has the mean that its cells share, the strain is the cell's own.
    */
   std::array<double, 4> cell_stress(const BlockForces<2> &blocks,
                                     const NodeRecord<2> *nodes,
@@ -51,14 +52,17 @@ namespace quoin
   /**
    * Stress [Pa] in the rotating frame by the strain of a cell,
    * with any @p stiffness. With that of the cell plus the initial stress it is
-   * the cell's stress, if it has never yielded.
+   * the cell's stress, if it has never yielded. In a mixed tetrahedron the
+   * change of volume is that which its cells share, by their @p history.
    */
   std::array<double, 4> stress_of_strain(const BlockForces<2> &blocks,
                                          const NodeRecord<2> *nodes,
+                                         const PlasticHistory &history,
                                          std::size_t cell,
                                          const PlaneStiffness &stiffness);
   SpaceTensor stress_of_strain(const BlockForces<3> &blocks,
-                               const NodeRecord<3> *nodes, std::size_t cell,
+                               const NodeRecord<3> *nodes,
+                               const PlasticHistory &history, std::size_t cell,
                                const SpaceStiffness &stiffness);
 
   /**
@@ -75,13 +79,16 @@ namespace quoin
                              const PlasticHistory &history, std::size_t cell);
 
   /** Sets the plastic stretch of a cell that has yielded so that @p law
-      gives the same stress. */
+      gives the same stress. @p before: the history of all cells by their
+      present laws. */
   void take_over_stress(const BlockForces<2> &blocks,
                         const NodeRecord<2> *nodes, std::size_t cell,
-                        const MohrCoulomb &law, PlasticHistory &history);
+                        const MohrCoulomb &law, const PlasticHistory &before,
+                        PlasticHistory &history);
   void take_over_stress(const BlockForces<3> &blocks,
                         const NodeRecord<3> *nodes, std::size_t cell,
-                        const SpaceMohrCoulomb &law, PlasticHistory &history);
+                        const SpaceMohrCoulomb &law,
+                        const PlasticHistory &before, PlasticHistory &history);
 
   /** Internal variables of cells without strain; empty: no cell yields. */
   PlasticHistory initial_history(const BlockForces<2> &blocks);

@@ -39,6 +39,22 @@ namespace quoin
   bool linearise_cell(const BlockForcesData<3> &data, unsigned int cell,
                       const NodeRecord<3> *nodes, PlasticHistory &history,
                       CellLinearisation &result, bool with_stiffness = true);
+
+  /** CellLinearisation of the cells of a mixed tetrahedron together. */
+  struct MixedLinearisation
+  {
+    unsigned int n_nodes = 10;
+    std::array<unsigned int, 10> nodes;
+    std::array<double, 30> force;                     /**< [N] */
+    std::array<std::array<double, 30>, 30> stiffness; /**< [N/m] */
+    double dissipated;                                /**< [J] */
+  };
+
+  /** linearise_cell() of the mixed tetrahedron of cells @p first to
+      @p first + 7. */
+  void linearise_mixed(const BlockForcesData<3> &data, unsigned int first,
+                       const NodeRecord<3> *nodes, PlasticHistory &history,
+                       MixedLinearisation &result, bool with_stiffness = true);
 } // namespace quoin
 
 #endif

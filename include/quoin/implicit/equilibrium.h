@@ -230,7 +230,7 @@ namespace quoin
     /** Places of an element's stiffness in the matrix's values, row by row,
         from a first one on in all places. An element some of whose degrees of
         freedom are constrained, or of another rank, has none: n_values is 0. */
-    static constexpr unsigned int most_nodes = 6;
+    static constexpr unsigned int most_nodes = 10;
     struct ElementPlaces
     {
       std::size_t first;

@@ -156,10 +156,17 @@ namespace quoin
     [[gnu::always_inline]] inline void
     elastic_stress(const LameModuli<L> &moduli, Value (&P)[3][3]) const
     {
-      // 2 mu (F - R) + lambda a (F - (F - R))
-      const Value mean    = moduli.lambda * a;
-      const Value s       = (moduli.mu + moduli.mu - mean) * inverse_D;
-      const Value forward = s * factor + mean;
+      elastic_stress(moduli.lambda * a, moduli.mu, P);
+    }
+
+    /** The same with @p isotropic in place of lambda tr e. */
+    [[gnu::always_inline]] inline void elastic_stress(const Value &isotropic,
+                                                      const Value &mu,
+                                                      Value (&P)[3][3]) const
+    {
+      // 2 mu (F - R) + isotropic (F - (F - R))
+      const Value s       = (mu + mu - isotropic) * inverse_D;
+      const Value forward = s * factor + isotropic;
       combine(s, forward, P);
     }
 
@@ -260,6 +267,8 @@ namespace quoin
     PolarDecomposition<OneLane> polar;
     double R[3][3];
     SpaceTensor e; /**< in the frame that rotates with R */
+
+    SpaceStrain() = default;
 
     explicit SpaceStrain(const double (&H)[3][3])
     {

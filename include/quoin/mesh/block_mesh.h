@@ -4,6 +4,8 @@
 #ifndef quoin_mesh_block_mesh_h
 #define quoin_mesh_block_mesh_h
 
+#include <quoin/mesh/mixed_tetrahedra.h>
+
 #include <deal.II/base/point.h>
 
 #include <algorithm>
@@ -82,6 +84,9 @@ namespace quoin
     /** Cells are to have nodes in the middle of their edges; see NodeMap. */
     bool quadratic = false;
 
+    /** Each eight cells are one mixed tetrahedron, see make_mixed(). */
+    bool mixed = false;
+
     std::vector<BlockFace<dim>> boundary_faces; /**< outer, not joints */
     std::vector<JointFace<dim>> joint_faces;
 
@@ -95,6 +100,11 @@ namespace quoin
     unsigned int n_cells() const
     {
       return cells.size();
+    }
+    /** Consecutive cells that stay together, on one rank. */
+    unsigned int n_joined_cells() const
+    {
+      return mixed ? parts_of_mixed : 1;
     }
     unsigned int n_vertices() const
     {

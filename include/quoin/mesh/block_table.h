@@ -41,6 +41,7 @@ namespace quoin
     unsigned int n_vertices    = 0;
     unsigned int n_joint_faces = 0;
     bool is_quadratic          = false;      /**< cells have midside nodes */
+    bool is_mixed              = false;      /**< see BlockMesh::mixed */
     std::array<dealii::Point<dim>, 2> box{}; /**< lower and upper corner [m] */
 
     /** Diagonal of the box around all vertices [m]. */
@@ -67,7 +68,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &group_names &face_names &first_cell &group &is_rigid &joined
-          &n_vertices &n_joint_faces &is_quadratic &box;
+          &n_vertices &n_joint_faces &is_quadratic &is_mixed &box;
     }
   };
 

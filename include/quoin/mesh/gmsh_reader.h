@@ -32,8 +32,11 @@ namespace quoin
     }
 
     TriangleKind kind;
-    /** Number of times that edges are halved, before quadrangles are cut. */
+    /** Number of times that edges are halved, before quadrangles or
+        tetrahedra are cut. */
     unsigned int refinements;
+    /** Whether tetrahedra are cut by make_mixed(). */
+    bool mixed_tetrahedra = false;
   };
 
   /** The dimension that a mesh is to have. */
@@ -75,7 +78,7 @@ namespace quoin
    * curved elements, a surface (volume) in no, several or unnamed physical
    * groups, a curve (surface) in several, nodes of a plane mesh off the plane
    * z = 0, cells without volume, another kind than plain in three
-   * dimensions.
+   * dimensions, mixed tetrahedra in two.
    */
   template <int dim = 2>
   MeshData<dim> read_gmsh(const std::string &filename,

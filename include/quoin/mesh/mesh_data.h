@@ -40,6 +40,10 @@ namespace quoin
     /** Whether triangles are to have nodes in the middle of their edges. */
     bool quadratic = false;
 
+    /** Whether each eight cells are one mixed tetrahedron, see make_mixed().
+     */
+    bool mixed = false;
+
     unsigned int n_reoriented = 0;      /**< cells that were the other way */
     std::string source        = "mesh"; /**< the file, for messages */
 
@@ -47,7 +51,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &vertices &cells &cell_group &faces &face_name &group_names
-          &face_names &quadratic &n_reoriented &source;
+          &face_names &quadratic &mixed &n_reoriented &source;
     }
   };
 

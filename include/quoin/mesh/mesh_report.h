@@ -29,6 +29,7 @@ namespace quoin
     unsigned int n_nodes       = 0;
     unsigned int n_joint_faces = 0;
     bool quadratic             = false; /**< nodes on the middle of edges */
+    bool mixed                 = false; /**< see BlockMesh::mixed */
 
     /** Length [m] or area [m^2] of joints by the name of their curve or
         surface; "" stands for joints without one. */
@@ -68,7 +69,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &dimension &n_blocks &n_cells &n_nodes &n_joint_faces &quadratic
-          &joint_size &total_joint_size &shortest_edge &longest_edge
+          &mixed &joint_size &total_joint_size &shortest_edge &longest_edge
               &smallest_angle &n_joint_ends &n_tied_joint_faces
                   &n_reoriented_cells &unmatched_size &unmatched_position
                       &overlaps &overlap_position &box;

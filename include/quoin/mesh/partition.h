@@ -15,7 +15,7 @@ namespace quoin
    * are shared evenly among @p n_ranks and little lies between ranks. Whole
    * blocks go to ranks where that balances; otherwise METIS divides the graph
    * of blocks, in which large deformable ones are many pieces. Rigid blocks
-   * (@p is_rigid, by block) stay whole.
+   * (@p is_rigid, by block) and mixed tetrahedra stay whole.
    */
   template <int dim>
   std::vector<unsigned int> partition_cells(const BlockMesh<dim> &mesh,

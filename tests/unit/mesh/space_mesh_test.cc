@@ -12,6 +12,7 @@
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/mesh/mesh_report.h>
+#include <quoin/mesh/mixed_tetrahedra.h>
 #include <quoin/mesh/node_map.h>
 #include <quoin/mesh/partition.h>
 
@@ -377,6 +378,99 @@ TEST(SpaceMesh, CracksEndAtAFront)
                        "Joint ends inside blocks = keep" });
 }
 
+TEST(SpaceMesh, MixedTetrahedraAreCutIntoEight)
+{
+  // One cell: equal volumes, and the shortest of three diagonals.
+  MeshData<3> one;
+  one.vertices   = { Point(0., 0., 0.), Point(3., 0., 0.), Point(0., 1., 0.),
+                     Point(0.4, 0.3, 1.) };
+  one.cells      = { { { 0, 1, 2, 3 } } };
+  one.cell_group = { 4 };
+  one.faces      = { { { 0, 1, 2 } } };
+  one.face_name  = { 3 };
+  make_mixed(one);
+  EXPECT_TRUE(one.mixed);
+  ASSERT_EQ(one.cells.size(), 8U);
+  EXPECT_EQ(one.vertices.size(), 10U);
+  EXPECT_EQ(one.cell_group, std::vector<unsigned int>(8, 4));
+  EXPECT_EQ(one.face_name, std::vector<unsigned int>(4, 3));
+  // Squares of the diagonals: 2.0625, 2.3625, 3.2625.
+  std::array<unsigned int, 3> n_diagonals{};
+  for (const auto &v : one.cells)
+  {
+    const Point &x = one.vertices[v[0]];
+    EXPECT_NEAR(
+        dealii::cross_product_3d(one.vertices[v[1]] - x, one.vertices[v[2]] - x)
+            * (one.vertices[v[3]] - x),
+        3. / 8., 1e-14);
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int b = 0; b < a; ++b)
+      {
+        const double square
+            = one.vertices[v[a]].distance_square(one.vertices[v[b]]);
+        n_diagonals[0] += std::abs(square - 2.0625) < 1e-12;
+        n_diagonals[1] += std::abs(square - 2.3625) < 1e-12;
+        n_diagonals[2] += std::abs(square - 3.2625) < 1e-12;
+      }
+  }
+  EXPECT_EQ(n_diagonals, (std::array<unsigned int, 3>{ { 4, 0, 0 } }));
+  double area = 0.;
+  for (const auto &face : one.faces)
+    area += area_vector(one.vertices, face)[2];
+  EXPECT_NEAR(area, 1.5, 1e-14);
+}
+
+TEST(SpaceMesh, MixedTetrahedraKeepJointsAndNames)
+{
+  MeshData<3> data           = read_boxes(MPI_COMM_SELF);
+  const unsigned int n_plain = data.cells.size();
+  BlockMesh<3> plain, mesh;
+  split_into_blocks(data, along({ "bed" }), plain);
+  make_mixed(data);
+  split_into_blocks(data, along({ "bed" }), mesh);
+  expect_consistent(mesh, 1.5);
+  EXPECT_TRUE(mesh.mixed);
+  EXPECT_EQ(mesh.n_blocks(), 2U);
+  EXPECT_EQ(mesh.n_cells(), 8 * n_plain);
+  EXPECT_EQ(mesh.joint_faces.size(), 4 * plain.joint_faces.size());
+  EXPECT_NEAR(outer_areas(mesh).at("base"), 1., 1e-12);
+  EXPECT_NEAR(make_mesh_report(mesh).joint_size.at("bed"), 1., 1e-12);
+  EXPECT_NE(make_mesh_report(mesh).to_text().find("mixed"), std::string::npos);
+  // Each eight have four at corners and four around a diagonal.
+  for (unsigned int c = 0; c < mesh.n_cells(); c += 8)
+  {
+    std::set<unsigned int> vertices;
+    double size = 0.;
+    for (unsigned int k = c; k < c + 8; ++k)
+    {
+      vertices.insert(mesh.cells[k].begin(), mesh.cells[k].end());
+      EXPECT_NEAR(volume(mesh, k), volume(mesh, c), 1e-12 * volume(mesh, c));
+      size += volume(mesh, k);
+    }
+    EXPECT_EQ(vertices.size(), 10U);
+    EXPECT_GT(size, 0.);
+  }
+}
+
+TEST(SpaceMesh, CracksOfMixedTetrahedraEndAtTheSameFront)
+{
+  MeshData<3> data;
+  add_box(data, { 2, 2, 2 }, "rock");
+  add_surface(data, "crack",
+              [](const Point &p)
+              { return std::abs(p[2] - 1.) < 1e-9 && p[0] < 1.1; });
+  make_mixed(data);
+  BlockMesh<3> mesh;
+  split_into_blocks(data, along({ "crack" }), mesh);
+  EXPECT_EQ(mesh.n_blocks(), 1U);
+  EXPECT_EQ(mesh.joint_faces.size(), 16U);
+  for (const JointFace<3> &face : mesh.joint_faces)
+    for (unsigned int k = 0; k < 3; ++k)
+      EXPECT_EQ(face.lower[k] == face.upper[k],
+                mesh.vertices[face.lower[k]][0] > 0.9);
+  EXPECT_NEAR(make_mesh_report(mesh).total_joint_size, 2., 1e-12);
+}
+
 TEST(SpaceMesh, RefusesWhatIsNoJoint)
 {
   MeshData<3> data;
@@ -578,4 +672,38 @@ TEST(SpaceMeshOfRanks, BlocksAreDistributed)
     outer += area_vector(points, face.nodes).norm();
   EXPECT_NEAR(sum(joint, MPI_COMM_WORLD), 1., 1e-12);
   EXPECT_NEAR(sum(outer, MPI_COMM_WORLD), 8., 1e-12);
+}
+
+TEST(SpaceMeshOfRanks, MixedTetrahedraStayWhole)
+{
+  using namespace dealii::Utilities::MPI;
+  MeshData<3> data = read_boxes(MPI_COMM_WORLD);
+  BlockMesh<3> mesh;
+  std::vector<unsigned int> rank_of_cell;
+  if (this_mpi_process(MPI_COMM_WORLD) == 0)
+  {
+    make_mixed(data);
+    split_into_blocks(data, {}, mesh);
+    rank_of_cell
+        = partition_cells(mesh, { false }, n_mpi_processes(MPI_COMM_WORLD));
+  }
+  const BlockTriangulation<3> blocks(mesh, rank_of_cell, { false },
+                                     MPI_COMM_WORLD);
+  const NodeMap<3> nodes(blocks);
+  EXPECT_TRUE(nodes.table().is_mixed);
+  const LocalCells<3> &cells = nodes.cells();
+  ASSERT_GT(cells.size(), 0U);
+  ASSERT_EQ(cells.size() % 8, 0U);
+  for (unsigned int c = 0; c < cells.size(); ++c)
+    EXPECT_EQ(cells.number[c], cells.number[c - c % 8] + c % 8);
+  for (unsigned int c = 0; c < cells.size(); c += 8)
+    EXPECT_EQ(cells.number[c] % 8, 0U);
+  // Those that share a node with other ranks come first.
+  ASSERT_EQ(nodes.blocks().parts.size(), 1U);
+  const BlockPart &part = nodes.blocks().parts[0];
+  EXPECT_EQ(part.first_inner_cell % 8, 0U);
+  EXPECT_EQ(part.first_inner_cell > 0, n_mpi_processes(MPI_COMM_WORLD) > 1);
+  for (unsigned int c = part.first_inner_cell; c < cells.size(); ++c)
+    for (const unsigned int node : cells.nodes[c])
+      EXPECT_LT(node, part.nodes[1]);
 }
