@@ -98,13 +98,13 @@ namespace quoin
       for (unsigned int b = 0; b < given.boundaries.size(); ++b)
       {
         const WaterBoundary &boundary = given.boundaries[b];
-        lines.push_back(
-            text_of("water at ", boundary.name, ": ",
-                    boundary.quantity == WaterQuantity::pressure ? "pressure"
-                    : boundary.quantity == WaterQuantity::head   ? "head"
-                    : boundary.quantity == WaterQuantity::outlet ? "outlet"
-                                                                 : "flow",
-                    " at ", water.channels().boundary_nodes[b].size(), " of them"));
+        lines.push_back(text_of(
+            "water at ", boundary.name, ": ",
+            boundary.quantity == WaterQuantity::pressure ? "pressure"
+            : boundary.quantity == WaterQuantity::head   ? "head"
+            : boundary.quantity == WaterQuantity::outlet ? "outlet"
+                                                         : "flow",
+            " at ", water.channels().boundary_nodes[b].size(), " of them"));
       }
       return lines;
     }
