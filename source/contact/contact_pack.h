@@ -36,7 +36,7 @@ namespace quoin
     using F                           = LaneFunctions<lanes>;
     using Value                       = typename F::Value;
     using Bits                        = typename F::Bits;
-    using Laws = std::conditional_t<lanes == 1, Law, LawLanes<Law, lanes>>;
+    using Laws = std::conditional_t<lanes == 1, Law, LawLanes<Law, lanes, dim>>;
 
     // As load() found them; see ContactPoint.
     Value sigma_before, tau_before, area_before, opening_before;
@@ -110,16 +110,16 @@ namespace quoin
           lost.fracture += weight * own.fracture;
           lost.crushing += weight * own.crushing;
         }
-        PointArrays all = arrays(now);
+        PointArrays<dim> all = arrays(now);
         write_point(point, all, 0);
         has_flowed = true;
       }
       else
       {
-        PointLanes<lanes> points;
+        PointLanes<lanes, dim> points;
         points.arrays  = arrays(now);
         points.opening = opening;
-        points.slip    = slip;
+        points.slip    = { { slip } };
         has_flowed     = !F::all(laws.try_elastic(points) | ~present);
         if (has_flowed)
           laws.update(points, present, weight, lost);
@@ -219,10 +219,10 @@ namespace quoin
       alignas(64) double values[4 + ContactPoint::most_internal][lanes];
       JointState state[8];
     };
-    static PointArrays arrays(Variables &of)
+    static PointArrays<dim> arrays(Variables &of)
     {
-      PointArrays result{ of.values[0], of.values[1], of.values[2],
-                          of.values[3], {},           of.state };
+      PointArrays<dim> result{ of.values[0], of.values[1], of.values[2],
+                               of.values[3], {},           of.state };
       for (unsigned int i = 0; i < ContactPoint::most_internal; ++i)
         result.internal[i] = of.values[4 + i];
       return result;

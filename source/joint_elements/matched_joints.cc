@@ -4,15 +4,13 @@
 #include <quoin/operators/archive.h>
 #include <quoin/joint_elements/dashpot_tractions.h>
 #include <quoin/joint_elements/joint_tangent.h>
-#include <quoin/joint_laws/composite_lanes.h>
-#include <quoin/joint_laws/coulomb_lanes.h>
 
 #include <algorithm>
 
+#include "face_group_forces.h"
 #include "joint_rates.h"
 #include "joint_sets.h"
 #include <quoin/joint_elements/joint_points.h>
-#include "segment_lanes.h"
 
 namespace quoin
 {
@@ -60,46 +58,9 @@ namespace quoin
       const JointNodes<2> &face = nodes.faces().joints[segment.face];
       segment_sides.push_back({ face.blocks, face.groups });
     }
-    set_begin.assign(1, 0);
-    for (unsigned int s = 0; s < sets.size(); ++s)
-      set_begin.push_back(std::partition_point(
-                              all_segments.begin(), all_segments.end(),
-                              [s](const JointSegment &a) { return a.set <= s; })
-                          - all_segments.begin());
-    group_segments();
-  }
-
-  void MatchedJoints::group_segments()
-  {
-    groups.clear();
-    group_begin.assign(1, 0);
-    for (unsigned int s = 0; s + 1 < set_begin.size(); ++s)
-    {
-      for (unsigned int i = set_begin[s]; i < set_begin[s + 1];
-           i += native_lanes)
-      {
-        SegmentGroup<native_lanes> group{};
-        group.first = i;
-        group.size  = std::min(native_lanes, set_begin[s + 1] - i);
-        for (unsigned int l = 0; l < native_lanes; ++l)
-        {
-          const JointSegment &segment
-              = all_segments[i + std::min(l, group.size - 1)];
-          for (unsigned int k = 0; k < 2; ++k)
-          {
-            group.nodes[k][l] = segment.lower[k] * sizeof(dealii::Tensor<1, 2>);
-            group.nodes[2 + k][l]
-                = segment.upper[k] * sizeof(dealii::Tensor<1, 2>);
-            if (l >= group.size)
-              continue;
-            group.area[2 * l + k]   = segment.area[k];
-            group.weight[2 * l + k] = segment.area[k] * segment.share;
-          }
-        }
-        groups.push_back(group);
-      }
-      group_begin.push_back(groups.size());
-    }
+    groups.prepare(all_segments, sets.size(),
+                   [](const JointSegment &segment, const unsigned int k)
+                   { return segment.area[k]; });
   }
 
   std::array<std::array<double, 2>, 2> joint_gaps(const JointSegment &segment,
@@ -108,73 +69,6 @@ namespace quoin
     const JointFrame local = joint_frame(segment, nodes);
     return { { joint_gap(segment, local, nodes, 0),
                joint_gap(segment, local, nodes, 1) } };
-  }
-
-  template <typename Law>
-  void MatchedJoints::add_set_forces(const unsigned int set, const Law &law,
-                                     const NodeRecord<2> *nodes,
-                                     JointHistory &history,
-                                     EnergyAccounts &energy,
-                                     dealii::Tensor<1, 2> *force) const
-  {
-    using F     = LaneFunctions<native_lanes>;
-    using Bits  = F::Bits;
-    using Value = F::Value;
-    const LawLanes<Law, native_lanes> laws(law);
-    const PointArrays arrays = arrays_of(history);
-    DissipationLanes<native_lanes> lost;
-    // Points of the last group: those behind it belong to another set, or to
-    // none.
-    PointPack<2 * native_lanes> pack;
-    for (unsigned int g = group_begin[set]; g < group_begin[set + 1]; ++g)
-    {
-      const auto &group  = groups[g];
-      const Bits present = SegmentLanes<native_lanes>::present(
-          group, history.handed_over.data());
-      if (!F::any(present))
-        continue;
-      const SegmentLanes<native_lanes> segments(group, nodes, present);
-
-      // Points of the group, in the order of the history.
-      const Value opening[2]
-          = { F::interleave_low(segments.opening[0], segments.opening[1]),
-              F::interleave_high(segments.opening[0], segments.opening[1]) };
-      const Value slip[2]
-          = { F::interleave_low(segments.slip[0], segments.slip[1]),
-              F::interleave_high(segments.slip[0], segments.slip[1]) };
-      const Bits there[2]     = { F::interleave_low(present, present),
-                                  F::interleave_high(present, present) };
-      const bool is_full      = group.size == native_lanes;
-      const PointArrays all   = arrays.from(2 * group.first);
-      const PointArrays first = is_full ? all : pack.arrays();
-      if (!is_full)
-        copy_points(all, first, 2 * group.size);
-      Value sigma[2], tau[2];
-      for (unsigned int h = 0; h < 2; ++h)
-      {
-        PointLanes<native_lanes> points{};
-        points.arrays     = first.from(h * native_lanes);
-        points.opening    = opening[h];
-        points.slip       = slip[h];
-        const Bits steady = laws.try_elastic(points);
-        if (F::all(steady & there[h]))
-          points.store_tractions();
-        else
-          laws.update(points, there[h],
-                      F::load(group.weight + h * native_lanes), lost);
-        const Value area = F::load(group.area + h * native_lanes);
-        sigma[h]         = area * points.sigma;
-        tau[h]           = area * points.tau;
-      }
-      if (!is_full)
-        copy_points(first, all, 2 * group.size);
-      segments.add_forces(
-          group, { F::even(sigma[0], sigma[1]), F::odd(sigma[0], sigma[1]) },
-          { F::even(tau[0], tau[1]), F::odd(tau[0], tau[1]) }, force);
-    }
-    energy.friction += F::sum(lost.friction);
-    energy.fracture += F::sum(lost.fracture);
-    energy.crushing += F::sum(lost.crushing);
   }
 
   void MatchedJoints::prepare(State<2> &state) const
@@ -220,7 +114,8 @@ namespace quoin
           [&](const auto &law)
           {
             const auto own = law; // which no history can alias
-            add_set_forces(set, own, nodes, history, lost, force);
+            groups.add_forces(set, own, nodes, history,
+                              history.handed_over.data(), lost, force);
           },
           all_laws[set]);
     energy += lost;
@@ -291,57 +186,6 @@ namespace quoin
       }
     }
   }
-  template <typename Law>
-  void MatchedJoints::add_set_viscous_forces(
-      const unsigned int set, const Law &law, const NodeRecord<2> *nodes,
-      const JointHistory &history, const dealii::Tensor<1, 2> *velocity,
-      const double beta, dealii::Tensor<1, 2> *force) const
-  {
-    using F     = LaneFunctions<native_lanes>;
-    using Bits  = F::Bits;
-    using Value = F::Value;
-    for (unsigned int g = group_begin[set]; g < group_begin[set + 1]; ++g)
-    {
-      const auto &group = groups[g];
-      // beta kn and beta ks times the area, of the points that act.
-      double factor[2][2 * native_lanes]{};
-      bool acts = false;
-      for (unsigned int j = 0; j < 2 * group.size; ++j)
-      {
-        const unsigned int p = 2 * group.first + j;
-        if (history.state[p] == JointState::slipping
-            || history.state[p] == JointState::open)
-          continue;
-        const auto [kn, ks] = law.stiffness_at(history.normal_traction[p]);
-        factor[0][j]        = beta * kn * group.area[j];
-        factor[1][j]        = beta * ks * group.area[j];
-        acts                = true;
-      }
-      if (!acts)
-        continue;
-      const Bits present = SegmentLanes<native_lanes>::present(
-          group, history.handed_over.data());
-      const SegmentLanes<native_lanes> segments(group, nodes, present);
-      Value opening_rate[2], slip_rate[2];
-      segments.find_rates(group, velocity, opening_rate, slip_rate);
-      const auto of_point = [](const double *values, Value(&result)[2])
-      {
-        const Value a = F::load(values), b = F::load(values + native_lanes);
-        result[0] = F::even(a, b);
-        result[1] = F::odd(a, b);
-      };
-      Value sigma[2], tau[2];
-      of_point(factor[0], sigma);
-      of_point(factor[1], tau);
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        sigma[k] *= opening_rate[k];
-        tau[k] *= slip_rate[k];
-      }
-      segments.add_forces(group, sigma, tau, force);
-    }
-  }
-
   void MatchedJoints::add_viscous_forces(const NodeRecord<2> *nodes,
                                          const JointHistory &history,
                                          const dealii::Tensor<1, 2> *velocity,
@@ -350,9 +194,11 @@ namespace quoin
   {
     for (unsigned int set = 0; set < all_laws.size(); ++set)
       std::visit(
-          [&](const auto &law) {
-            add_set_viscous_forces(set, law, nodes, history, velocity, beta,
-                                   force);
+          [&](const auto &law)
+          {
+            groups.add_viscous_forces(set, law, nodes, history,
+                                      history.handed_over.data(), velocity,
+                                      beta, force);
           },
           all_laws[set]);
   }

@@ -6,9 +6,7 @@
 
 #include <quoin/base/lane_functions.h>
 #include <quoin/base/node_record.h>
-#include <quoin/joint_elements/segment_group.h>
-
-#include <algorithm>
+#include <quoin/joint_elements/face_groups.h>
 
 // The geometry of joint_frame.h for several segments at once, one in each lane.
 
@@ -23,25 +21,15 @@ namespace quoin
     using Value                       = typename F::Value;
     using Bits                        = typename F::Bits;
 
-    Value normal[2];
-    Value inverse_length;      /**< see JointFrame [1/m] */
-    Value opening[2], slip[2]; /**< of both points [m] */
+    using Group = FaceGroup<dim, lanes>;
 
-    /** Segments that are there and have not become general contacts. */
-    static QUOIN_INLINE Bits present(const SegmentGroup<lanes> &group,
-                                     const std::uint8_t *handed_over)
-    {
-      if (group.size == lanes)
-        return F::load_bytes(handed_over + group.first) == 0;
-      std::uint8_t gone[lanes];
-      std::fill_n(gone, lanes, 1);
-      std::copy_n(handed_over + group.first, group.size, gone);
-      return F::load_bytes(gone) == 0;
-    }
+    Value normal[2];
+    Value inverse_length;         /**< see JointFrame [1/m] */
+    Value opening[2], slip[1][2]; /**< of both points [m] */
 
     /** Lanes that are not @p present have frames and gaps of zero. */
-    QUOIN_INLINE SegmentLanes(const SegmentGroup<lanes> &group,
-                              const NodeRecord<2> *nodes, const Bits &present)
+    QUOIN_INLINE SegmentLanes(const Group &group, const NodeRecord<2> *nodes,
+                              const Bits &present)
     {
       // X, Y, u and v of lower[0], lower[1], upper[0], upper[1]
       Value node[4][4];
@@ -72,26 +60,27 @@ namespace quoin
           gap[d] = (node[2 + k][d] - node[k][d])
                    + (node[2 + k][2 + d] - node[k][2 + d]);
         opening[k] = gap[0] * normal[0] + gap[1] * normal[1];
-        slip[k]    = gap[0] * normal[1] - gap[1] * normal[0];
+        slip[0][k] = gap[0] * normal[1] - gap[1] * normal[0];
       }
     }
 
     /** Adds what the resultants @p sigma and @p tau [N] at both points do to
         the nodes, with what the turning of the frame adds (joint_frame.h). */
-    QUOIN_INLINE void add_forces(const SegmentGroup<lanes> &group,
-                                 const Value (&sigma)[2], const Value (&tau)[2],
+    QUOIN_INLINE void add_forces(const Group &group, const Value (&sigma)[2],
+                                 const Value (&tau)[1][2],
                                  dealii::Tensor<1, 2> *force) const
     {
-      char *to           = reinterpret_cast<char *>(force);
-      const Value couple = inverse_length
-                           * ((tau[0] * opening[0] - sigma[0] * slip[0])
-                              + (tau[1] * opening[1] - sigma[1] * slip[1]));
+      char *to = reinterpret_cast<char *>(force);
+      const Value couple
+          = inverse_length
+            * ((tau[0][0] * opening[0] - sigma[0] * slip[0][0])
+               + (tau[0][1] * opening[1] - sigma[1] * slip[0][1]));
       const Value end[2] = { couple * normal[0], couple * normal[1] };
       Value pull[2][2];
       for (unsigned int k = 0; k < 2; ++k)
       {
-        pull[k][0] = sigma[k] * normal[0] + tau[k] * normal[1];
-        pull[k][1] = sigma[k] * normal[1] - tau[k] * normal[0];
+        pull[k][0] = sigma[k] * normal[0] + tau[0][k] * normal[1];
+        pull[k][1] = sigma[k] * normal[1] - tau[0][k] * normal[0];
       }
       L::add(to, group.nodes[0], pull[0][0] - end[0], pull[0][1] - end[1]);
       L::add(to, group.nodes[1], pull[1][0] + end[0], pull[1][1] + end[1]);
@@ -100,10 +89,10 @@ namespace quoin
     }
 
     /** Rates [m/s] of the openings and slips of both points. */
-    QUOIN_INLINE void find_rates(const SegmentGroup<lanes> &group,
+    QUOIN_INLINE void find_rates(const Group &group,
                                  const dealii::Tensor<1, 2> *velocity,
                                  Value (&opening_rate)[2],
-                                 Value (&slip_rate)[2]) const
+                                 Value (&slip_rate)[1][2]) const
     {
       const char *base = reinterpret_cast<const char *>(velocity);
       Value v[4][dim];
@@ -116,8 +105,8 @@ namespace quoin
       for (unsigned int k = 0; k < 2; ++k)
       {
         const Value x = v[2 + k][0] - v[k][0], y = v[2 + k][1] - v[k][1];
-        opening_rate[k] = x * normal[0] + y * normal[1] - slip[k] * turn;
-        slip_rate[k]    = x * normal[1] - y * normal[0] + opening[k] * turn;
+        opening_rate[k] = x * normal[0] + y * normal[1] - slip[0][k] * turn;
+        slip_rate[0][k] = x * normal[1] - y * normal[0] + opening[k] * turn;
       }
     }
   };

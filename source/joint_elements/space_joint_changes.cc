@@ -112,7 +112,7 @@ namespace quoin
         {
           for (unsigned int k = 0; k < 3; ++k)
           {
-            SpacePointOf<decltype(law)> point;
+            PointOf<decltype(law), 3> point;
             point.plastic_opening = gaps[k][0];
             point.plastic_slip    = slip_of(gaps[k]);
             write_point(point, history, 3 * i + k);

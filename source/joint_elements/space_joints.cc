@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face_group_forces.h"
 #include "joint_sets.h"
 #include "space_face.h"
 
@@ -117,13 +118,9 @@ namespace quoin
     std::stable_sort(all_faces.begin(), all_faces.end(),
                      [](const SpaceJointFace &a, const SpaceJointFace &b)
                      { return a.set < b.set; });
-    set_begin.assign(1, 0);
-    for (unsigned int s = 0; s < sets.size(); ++s)
-      set_begin.push_back(std::partition_point(all_faces.begin(),
-                                               all_faces.end(),
-                                               [s](const SpaceJointFace &a)
-                                               { return a.set <= s; })
-                          - all_faces.begin());
+    groups.prepare(all_faces, sets.size(),
+                   [](const SpaceJointFace &face, unsigned int)
+                   { return face.area; });
   }
 
   void SpaceJoints::set_laws(const std::vector<JointSetParameters> &sets)
@@ -144,7 +141,7 @@ namespace quoin
     history.resize(all_faces.size(), most);
     for (unsigned int p = 0; p < n_points(); ++p)
       std::visit([&](const auto &law)
-                 { write_point(SpacePointOf<decltype(law)>(), history, p); },
+                 { write_point(PointOf<decltype(law), 3>(), history, p); },
                  all_laws[all_faces[p / 3].set]);
   }
 
@@ -158,40 +155,6 @@ namespace quoin
                          step.stiffness_damping, forces.viscous);
   }
 
-  template <typename Law>
-  void SpaceJoints::add_set_forces(const unsigned int set, const Law &law,
-                                   const NodeRecord<3> *nodes,
-                                   SpaceJointHistory &history,
-                                   EnergyAccounts &energy,
-                                   dealii::Tensor<1, 3> *force) const
-  {
-    for (unsigned int i = set_begin[set]; i < set_begin[set + 1]; ++i)
-    {
-      if (history.detached[i])
-        continue;
-      const SpaceJointFace &face  = all_faces[i];
-      const SpaceJointFrame frame = joint_frame(face, nodes);
-      add_face_forces(
-          face, frame, nodes,
-          [&](const unsigned int k, const Vector &vector)
-          {
-            const SpaceJointGap gap = components(frame, vector);
-            Slip<3> slip;
-            slip[0]    = gap[1];
-            slip[1]    = gap[2];
-            auto point = read_point(law, history, 3 * i + k);
-            if (!law.update_elastic(point, gap[0], slip))
-              book(law.update_failing(point, gap[0], slip),
-                   face.area * face.share, energy);
-            write_point(point, history, 3 * i + k);
-            return face.area
-                   * traction_vector(frame, point.normal_traction,
-                                     point.shear_traction);
-          },
-          force);
-    }
-  }
-
   void SpaceJoints::add_forces(const NodeRecord<3> *nodes,
                                SpaceJointHistory &history,
                                EnergyAccounts &energy,
@@ -200,9 +163,14 @@ namespace quoin
     // Summed apart: a step's share is small beside the account.
     EnergyAccounts lost;
     for (unsigned int set = 0; set < all_laws.size(); ++set)
-      std::visit([&](const auto &law)
-                 { add_set_forces(set, law, nodes, history, lost, force); },
-                 all_laws[set]);
+      std::visit(
+          [&](const auto &law)
+          {
+            const auto own = law; // which no history can alias
+            groups.add_forces(set, own, nodes, history, history.detached.data(),
+                              lost, force);
+          },
+          all_laws[set]);
     energy += lost;
   }
 
@@ -212,25 +180,15 @@ namespace quoin
                                        const double beta,
                                        dealii::Tensor<1, 3> *force) const
   {
-    for (unsigned int i = 0; i < all_faces.size(); ++i)
+    for (unsigned int set = 0; set < all_laws.size(); ++set)
       std::visit(
           [&](const auto &law)
           {
-            add_rate_forces(
-                all_faces[i], nodes, velocity,
-                [&](const unsigned int k) -> std::array<double, 2>
-                {
-                  const unsigned int p = 3 * i + k;
-                  if (history.state[p] == JointState::slipping
-                      || history.state[p] == JointState::open)
-                    return {};
-                  const auto [kn, ks]
-                      = law.stiffness_at(history.normal_traction[p]);
-                  return { { beta * kn, beta * ks } };
-                },
-                force);
+            groups.add_viscous_forces(set, law, nodes, history,
+                                      history.detached.data(), velocity, beta,
+                                      force);
           },
-          all_laws[all_faces[i].set]);
+          all_laws[set]);
   }
 
   void add_elastic_forces(const SpaceJoints &joints, const NodeRecord<3> *nodes,

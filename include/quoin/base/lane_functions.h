@@ -150,6 +150,67 @@ namespace quoin
         return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
     }
 
+    /** The vectors a, b (and c) in the order a0, b0, c0, a1, b1, ... */
+    template <typename Vector>
+    static QUOIN_INLINE void interleave(const Vector (&from)[2],
+                                        Vector (&to)[2])
+    {
+      to[0] = interleave_low(from[0], from[1]);
+      to[1] = interleave_high(from[0], from[1]);
+    }
+    template <typename Vector>
+    static QUOIN_INLINE void interleave(const Vector (&from)[3],
+                                        Vector (&to)[3])
+    {
+      const Vector &a = from[0], &b = from[1], &c = from[2];
+      if constexpr (lanes == 4)
+      {
+        to[0] = __builtin_shufflevector(a, b, 0, 4, -1, 1);
+        to[0] = __builtin_shufflevector(to[0], c, 0, 1, 4, 3);
+        to[1] = __builtin_shufflevector(a, b, 5, -1, 2, 6);
+        to[1] = __builtin_shufflevector(to[1], c, 0, 5, 2, 3);
+        to[2] = __builtin_shufflevector(a, b, -1, 3, 7, -1);
+        to[2] = __builtin_shufflevector(to[2], c, 6, 1, 2, 7);
+      }
+      else
+      {
+        to[0] = __builtin_shufflevector(a, b, 0, 8, -1, 1, 9, -1, 2, 10);
+        to[0] = __builtin_shufflevector(to[0], c, 0, 1, 8, 3, 4, 9, 6, 7);
+        to[1] = __builtin_shufflevector(a, b, -1, 3, 11, -1, 4, 12, -1, 5);
+        to[1] = __builtin_shufflevector(to[1], c, 10, 1, 2, 11, 4, 5, 12, 7);
+        to[2] = __builtin_shufflevector(a, b, 13, -1, 6, 14, -1, 7, 15, -1);
+        to[2] = __builtin_shufflevector(to[2], c, 0, 13, 2, 3, 14, 5, 6, 15);
+      }
+    }
+    /** The inverse of interleave(). */
+    static QUOIN_INLINE void take_apart(const Value (&from)[2], Value (&to)[2])
+    {
+      to[0] = even(from[0], from[1]);
+      to[1] = odd(from[0], from[1]);
+    }
+    static QUOIN_INLINE void take_apart(const Value (&from)[3], Value (&to)[3])
+    {
+      const Value &x = from[0], &y = from[1], &z = from[2];
+      if constexpr (lanes == 4)
+      {
+        to[0] = __builtin_shufflevector(x, y, 0, 3, 6, -1);
+        to[0] = __builtin_shufflevector(to[0], z, 0, 1, 2, 5);
+        to[1] = __builtin_shufflevector(x, y, 1, 4, 7, -1);
+        to[1] = __builtin_shufflevector(to[1], z, 0, 1, 2, 6);
+        to[2] = __builtin_shufflevector(x, y, 2, 5, -1, -1);
+        to[2] = __builtin_shufflevector(to[2], z, 0, 1, 4, 7);
+      }
+      else
+      {
+        to[0] = __builtin_shufflevector(x, y, 0, 3, 6, 9, 12, 15, -1, -1);
+        to[0] = __builtin_shufflevector(to[0], z, 0, 1, 2, 3, 4, 5, 10, 13);
+        to[1] = __builtin_shufflevector(x, y, 1, 4, 7, 10, 13, -1, -1, -1);
+        to[1] = __builtin_shufflevector(to[1], z, 0, 1, 2, 3, 4, 8, 11, 14);
+        to[2] = __builtin_shufflevector(x, y, 2, 5, 8, 11, 14, -1, -1, -1);
+        to[2] = __builtin_shufflevector(to[2], z, 0, 1, 2, 3, 4, 9, 12, 15);
+      }
+    }
+
     /** Lane @p l. */
     static QUOIN_INLINE double at(const Value &a, const int l)
     {

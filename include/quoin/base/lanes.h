@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 // Vectors wider than the machine's registers are legal (the tests run 8 lanes
@@ -142,20 +143,22 @@ namespace quoin
       const Value xy_13 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
       const Value zw_02 = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6);
       const Value zw_13 = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
-      four(to(0))       = __builtin_shufflevector(xy_02, zw_02, 0, 1, 4, 5);
-      four(to(1))       = __builtin_shufflevector(xy_13, zw_13, 0, 1, 4, 5);
-      four(to(2))       = __builtin_shufflevector(xy_02, zw_02, 2, 3, 6, 7);
-      four(to(3))       = __builtin_shufflevector(xy_13, zw_13, 2, 3, 6, 7);
+      set_four(to(0), __builtin_shufflevector(xy_02, zw_02, 0, 1, 4, 5));
+      set_four(to(1), __builtin_shufflevector(xy_13, zw_13, 0, 1, 4, 5));
+      set_four(to(2), __builtin_shufflevector(xy_02, zw_02, 2, 3, 6, 7));
+      set_four(to(3), __builtin_shufflevector(xy_13, zw_13, 2, 3, 6, 7));
     }
 
-    static QUOIN_INLINE const Value &four(const double *p)
+    /** Four doubles, at any address of doubles. */
+    static QUOIN_INLINE Value four(const double *p)
     {
-      return *reinterpret_cast<const Value *>(p);
+      Value value;
+      std::memcpy(&value, p, sizeof(value));
+      return value;
     }
-
-    static QUOIN_INLINE Value &four(double *p)
+    static QUOIN_INLINE void set_four(double *p, const Value &value)
     {
-      return *reinterpret_cast<Value *>(p);
+      std::memcpy(p, &value, sizeof(value));
     }
 
     /** Transposes the pairs at base + scale * offset. */
@@ -318,8 +321,8 @@ namespace quoin
       transpose(v, row);
       for (int l = 0; l < 4; ++l)
       {
-        Lanes<4>::four(to(l))     = low(row[l]);
-        Lanes<4>::four(to(l + 4)) = high(row[l]);
+        Lanes<4>::set_four(to(l), low(row[l]));
+        Lanes<4>::set_four(to(l + 4), high(row[l]));
       }
     }
 

@@ -6,7 +6,7 @@
 
 #include <quoin/base/thickness.h>
 #include <quoin/joint_elements/pair_dashpots.h>
-#include <quoin/joint_elements/segment_group.h>
+#include <quoin/joint_elements/face_groups.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/joint_laws/joint_parameters.h>
@@ -131,22 +131,6 @@ namespace quoin
                    const TakeElement<2> &take) const override;
 
   private:
-    void group_segments();
-
-    /** add_forces() of a set. */
-    template <typename Law>
-    void add_set_forces(unsigned int set, const Law &law,
-                        const NodeRecord<2> *nodes, JointHistory &history,
-                        EnergyAccounts &energy,
-                        dealii::Tensor<1, 2> *force) const;
-    /** add_viscous_forces() of a set. */
-    template <typename Law>
-    void add_set_viscous_forces(unsigned int set, const Law &law,
-                                const NodeRecord<2> *nodes,
-                                const JointHistory &history,
-                                const dealii::Tensor<1, 2> *velocity,
-                                double beta, dealii::Tensor<1, 2> *force) const;
-
     void add_dashpot_forces(const NodeRecord<2> *nodes,
                             const JointHistory &history,
                             const dealii::Tensor<1, 2> *velocity,
@@ -160,9 +144,7 @@ namespace quoin
     std::vector<JointDamping> dampings; /**< damping of each joint set */
     PairDashpots dashpots;
     std::vector<JointLaw> all_laws;
-    std::vector<unsigned int> set_begin; /**< first segment of each set */
-    AlignedArray<SegmentGroup<native_lanes>> groups;
-    std::vector<unsigned int> group_begin; /**< first group of each set */
+    FaceGroups<2> groups;
   };
 
   /** Which sets have joints at each block of the mesh: entry b n + s is 1 if

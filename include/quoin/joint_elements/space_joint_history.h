@@ -4,9 +4,7 @@
 #ifndef quoin_joint_elements_space_joint_history_h
 #define quoin_joint_elements_space_joint_history_h
 
-#include <quoin/base/packed_vectors.h>
 #include <quoin/joints/joint_history.h>
-#include <quoin/joints/joint_point.h>
 
 #include <array>
 #include <type_traits>
@@ -21,6 +19,7 @@ namespace quoin
   struct SpaceJointHistory
   {
     static constexpr const char *slice_name = "joints in space";
+    static constexpr int dimension          = 3;
 
     AlignedArray<double> normal_traction; /**< [Pa] */
     AlignedArray<double> shear_traction;  /**< two of each point [Pa] */
@@ -70,38 +69,6 @@ namespace quoin
   template <int dim>
   using JointHistoryOf
       = std::conditional_t<dim == 2, JointHistory, SpaceJointHistory>;
-
-  template <typename Law>
-  using SpacePointOf = typename std::decay_t<Law>::template Point<3>;
-
-  template <typename Law>
-  SpacePointOf<Law> read_point(const Law &, const SpaceJointHistory &history,
-                               const unsigned int p)
-  {
-    using Point = SpacePointOf<Law>;
-    Point point;
-    point.normal_traction = history.normal_traction[p];
-    point.plastic_opening = history.plastic_opening[p];
-    point.state           = history.state[p];
-    point.shear_traction  = vector_at(history.shear_traction, p);
-    point.plastic_slip    = vector_at(history.plastic_slip, p);
-    for (unsigned int i = 0; i < Point::internal.size(); ++i)
-      point.*Point::internal[i] = history.internal[i][p];
-    return point;
-  }
-
-  template <typename Point>
-  void write_point(const Point &point, SpaceJointHistory &history,
-                   const unsigned int p)
-  {
-    history.normal_traction[p] = point.normal_traction;
-    history.plastic_opening[p] = point.plastic_opening;
-    history.state[p]           = point.state;
-    set_vector(history.shear_traction, p, point.shear_traction);
-    set_vector(history.plastic_slip, p, point.plastic_slip);
-    for (unsigned int i = 0; i < Point::internal.size(); ++i)
-      history.internal[i][p] = point.*Point::internal[i];
-  }
 } // namespace quoin
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef quoin_joint_elements_space_joints_h
 #define quoin_joint_elements_space_joints_h
 
+#include <quoin/joint_elements/face_groups.h>
 #include <quoin/joint_elements/matched_joints.h>
 #include <quoin/joint_elements/space_joint_history.h>
 
@@ -134,16 +135,9 @@ namespace quoin
                                         const State<3> &state) const;
 
   private:
-    /** add_forces() of a set. */
-    template <typename Law>
-    void add_set_forces(unsigned int set, const Law &law,
-                        const NodeRecord<3> *nodes, SpaceJointHistory &history,
-                        EnergyAccounts &energy,
-                        dealii::Tensor<1, 3> *force) const;
-
     std::vector<SpaceJointFace> all_faces; /**< sorted by set */
     std::vector<JointLaw> all_laws;
-    std::vector<unsigned int> set_begin; /**< first face of each set */
+    FaceGroups<3> groups;
   };
 
   /** Names of the quantities of the laws for results; see JointField. */

@@ -15,13 +15,14 @@ namespace quoin
    * Cracks that close, and flow that Newton's method finds without crushing and
    * dilation, are in lanes; CompositeLaw itself does the rest, point by point.
    */
-  template <int lanes>
-  class LawLanes<CompositeLaw, lanes>
+  template <int lanes, int dim>
+  class LawLanes<CompositeLaw, lanes, dim>
   {
   public:
     using F     = LaneFunctions<lanes>;
     using Value = typename F::Value;
     using Bits  = typename F::Bits;
+    using Slips = SlipLanes<lanes, dim>;
 
     explicit LawLanes(const CompositeLaw &law)
       : law(law), opening_softening(law.opening_softening()),
@@ -30,22 +31,22 @@ namespace quoin
     {
     }
 
-    QUOIN_INLINE Bits try_elastic(PointLanes<lanes> &points) const
+    QUOIN_INLINE Bits try_elastic(PointLanes<lanes, dim> &points) const
     {
-      const PointArrays &at = points.arrays;
-      points.sigma          = law.normal_stiffness
+      const PointArrays<dim> &at = points.arrays;
+      points.sigma               = law.normal_stiffness
                      * (points.opening - F::load(at.plastic_opening));
       points.tau
-          = law.shear_stiffness * (points.slip - F::load(at.plastic_slip));
-      points.elastic   = is_elastic(at, points.sigma, points.tau,
+          = law.shear_stiffness * (points.slip - Slips::load(at.plastic_slip));
+      points.elastic   = is_elastic(at, points.sigma, magnitude(points.tau),
                                     F::load(at.internal[crack_opening]));
       const Bits state = points.load_state();
       return points.elastic
              & ((state == 0) | (state == elastic_state(points.sigma)));
     }
 
-    QUOIN_INLINE void update(PointLanes<lanes> &points, const Bits &present,
-                             const Value &weight,
+    QUOIN_INLINE void update(PointLanes<lanes, dim> &points,
+                             const Bits &present, const Value &weight,
                              DissipationLanes<lanes> &lost) const
     {
       const Bits failing = present & ~points.elastic;
@@ -87,23 +88,23 @@ namespace quoin
              + (law.friction - law.residual_friction) * bond;
     }
 
-    /** See CompositeLaw::update_elastic(). */
-    QUOIN_INLINE Bits is_elastic(const PointArrays &at, const Value &sigma,
+    /** See CompositeLaw::update_elastic(). @p tau: size of the shear traction,
+        here and below. */
+    QUOIN_INLINE Bits is_elastic(const PointArrays<dim> &at, const Value &sigma,
                                  const Value &tau,
                                  const Value &crack_opening) const
     {
       const Value bond_now = F::load(at.internal[bond]);
       const Bits below
           = (sigma <= law.tension * bond_now)
-            & (F::absolute(tau)
-               <= law.cohesion * bond_now - sigma * friction_at(bond_now))
+            & (tau <= law.cohesion * bond_now - sigma * friction_at(bond_now))
             & ~((sigma < 0.) & (crack_opening > 0.));
       return below & within_cap(at, sigma, tau, below);
     }
 
     /** Whether tractions leave the cap as it was, for the points of @p asked.
      */
-    QUOIN_INLINE Bits within_cap(const PointArrays &at, const Value &sigma,
+    QUOIN_INLINE Bits within_cap(const PointArrays<dim> &at, const Value &sigma,
                                  const Value &tau, const Bits &asked) const
     {
       const Value load = (law.cap.normal * sigma + law.cap.offset) * sigma
@@ -141,22 +142,23 @@ namespace quoin
     }
 
     /** update() of points of which those of @p failing are not elastic. */
-    void fail(PointLanes<lanes> &points, const Bits &present,
+    void fail(PointLanes<lanes, dim> &points, const Bits &present,
               const Bits &failing, const Value &weight,
               DissipationLanes<lanes> &lost) const
     {
-      const PointArrays &at = points.arrays;
+      const PointArrays<dim> &at = points.arrays;
       const double kn = law.normal_stiffness, ks = law.shear_stiffness;
       const Value none{};
       const Value sigma_old     = F::load(at.normal_traction);
-      const Value tau_old       = F::load(at.shear_traction);
+      const Slips tau_old       = Slips::load(at.shear_traction);
       const Value bond_old      = F::load(at.internal[bond]);
       const Value crack_old     = F::load(at.internal[crack_opening]);
       const Bits intact         = points.load_state() == 0;
-      const Value opening_trial = points.opening, slip_trial = points.slip;
-      Value plastic_opening = F::load(at.plastic_opening);
-      Value sigma           = points.sigma;
-      const Value tau       = points.tau;
+      const Value opening_trial = points.opening;
+      Value plastic_opening     = F::load(at.plastic_opening);
+      Value sigma               = points.sigma;
+      const Slips tau           = points.tau;
+      const Value size          = magnitude(tau);
 
       // The crack closes first, then the joint is elastic or fails.
       const Value gap        = plastic_opening - opening_trial;
@@ -171,19 +173,18 @@ namespace quoin
                                                     : plastic_opening - closed)
                               : plastic_opening;
         sigma = closes ? kn * (opening_trial - plastic_opening) : sigma;
-        sticks |= closes & is_elastic(at, sigma, tau, crack_left);
+        sticks |= closes & is_elastic(at, sigma, size, crack_left);
       }
 
-      const Value size      = F::absolute(tau);
-      const Value direction = tau < 0. ? none - 1. : none + 1.;
+      const Slips direction = direction_of(tau, size);
       const Flow flow = find_flow(at, present & ~sticks, sigma, size, bond_old);
       const Bits flows = flow.found;
       const Bits done  = present & (sticks | flows);
 
       const Value sigma_new  = flows ? flow.sigma : sigma;
-      const Value tau_new    = flows ? direction * flow.tau : tau;
+      const Slips tau_new    = Slips::choose(flows, flow.tau * direction, tau);
       const Value sigma_mean = 0.5 * (sigma_old + sigma_new);
-      const Value slid = 0.5 * (tau_old * direction + flow.tau) * flow.slip;
+      const Value slid = 0.5 * (dot(tau_old, direction) + flow.tau) * flow.slip;
       const Value cohesion_lost = F::minimum(
           slid, 0.5 * law.cohesion * (bond_old + flow.bond) * flow.slip);
       const Value opened = flows ? flow.opening : none;
@@ -210,7 +211,7 @@ namespace quoin
       F::store(at.plastic_opening,
                flows ? opening_trial - sigma_new / kn : plastic_opening,
                done & (closes | flows));
-      F::store(at.plastic_slip, slip_trial - tau_new / ks, flows);
+      (points.slip - tau_new / ks).store(at.plastic_slip, flows);
       F::store(at.internal[bond], flow.bond, flows);
       F::store(at.internal[crack_opening], crack_new, done & (closes | flows));
 
@@ -222,7 +223,7 @@ namespace quoin
 
     /** The flow from trial tractions of the points of @p asked, where there is
         no crushing, no dilation and no corner. */
-    QUOIN_INLINE Flow find_flow(const PointArrays &at, const Bits &asked,
+    QUOIN_INLINE Flow find_flow(const PointArrays<dim> &at, const Bits &asked,
                                 const Value &sigma, const Value &tau,
                                 const Value &bond_start) const
     {
@@ -248,7 +249,7 @@ namespace quoin
     }
 
     /** See CompositeReturnMap::slide(). */
-    QUOIN_INLINE void slide(const PointArrays &at, const Bits &asked,
+    QUOIN_INLINE void slide(const PointArrays<dim> &at, const Bits &asked,
                             const Value &sigma, const Value &tau,
                             const Value &bond_start, Flow &flow) const
     {
@@ -287,7 +288,7 @@ namespace quoin
     }
 
     /** See CompositeReturnMap::iterate(), of points that open. */
-    QUOIN_INLINE void iterate(const PointArrays &at, const Bits &asked,
+    QUOIN_INLINE void iterate(const PointArrays<dim> &at, const Bits &asked,
                               const Bits &slips, const Value &sigma_trial,
                               const Value &tau_trial, const Value &bond_start,
                               Flow &flow) const

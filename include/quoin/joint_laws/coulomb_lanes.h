@@ -9,23 +9,24 @@
 
 namespace quoin
 {
-  template <int lanes>
-  class LawLanes<CoulombLaw, lanes>
+  template <int lanes, int dim>
+  class LawLanes<CoulombLaw, lanes, dim>
   {
   public:
     using F     = LaneFunctions<lanes>;
     using Value = typename F::Value;
     using Bits  = typename F::Bits;
+    using Slips = SlipLanes<lanes, dim>;
 
     explicit LawLanes(const CoulombLaw &law) : law(law)
     {
     }
 
-    QUOIN_INLINE Bits try_elastic(PointLanes<lanes> &points) const
+    QUOIN_INLINE Bits try_elastic(PointLanes<lanes, dim> &points) const
     {
-      const PointArrays &at = points.arrays;
-      const Bits state      = points.load_state();
-      const Bits intact     = state == number(JointState::intact);
+      const PointArrays<dim> &at = points.arrays;
+      const Bits state           = points.load_state();
+      const Bits intact          = state == number(JointState::intact);
       const Value none{};
       const Value tension
           = intact ? none + law.peak.tension : none + law.residual.tension;
@@ -37,18 +38,18 @@ namespace quoin
       points.sigma = law.normal_stiffness
                      * (points.opening - F::load(at.plastic_opening));
       points.tau
-          = law.shear_stiffness * (points.slip - F::load(at.plastic_slip));
+          = law.shear_stiffness * (points.slip - Slips::load(at.plastic_slip));
       points.elastic = (points.sigma <= tension)
-                       & (F::absolute(points.tau) <= F::maximum(
+                       & (magnitude(points.tau) <= F::maximum(
                               none, cohesion - points.sigma * friction));
       return points.elastic & (intact | (state == number(JointState::slipped)));
     }
 
-    QUOIN_INLINE void update(PointLanes<lanes> &points, const Bits &present,
-                             const Value &weight,
+    QUOIN_INLINE void update(PointLanes<lanes, dim> &points,
+                             const Bits &present, const Value &weight,
                              DissipationLanes<lanes> &lost) const
     {
-      const PointArrays &at = points.arrays;
+      const PointArrays<dim> &at = points.arrays;
       const double kn = law.normal_stiffness, ks = law.shear_stiffness;
       const double tension  = law.residual.tension;
       const double friction = law.residual.friction;
@@ -59,25 +60,26 @@ namespace quoin
       if (F::any(failing))
       {
         const Value sigma_old       = F::load(at.normal_traction);
-        const Value tau_old         = F::load(at.shear_traction);
-        const Value plastic_slip    = F::load(at.plastic_slip);
+        const Slips tau_old         = Slips::load(at.shear_traction);
+        const Slips plastic_slip    = Slips::load(at.plastic_slip);
         const Value plastic_opening = F::load(at.plastic_opening);
-        const Value sigma = points.sigma, tau = points.tau;
-        const Bits open = sigma > tension;
+        const Value sigma           = points.sigma;
+        const Slips tau             = points.tau;
+        const Bits open             = sigma > tension;
 
         // See CoulombLaw::update_failing().
         const Value opened = (0.5 * (sigma_old + tension) * (sigma - sigma_old)
                               + 0.5 * sigma_old * sigma_old
                               - tension * (sigma - 0.5 * tension))
                              / kn;
-        const Value unloaded = 0.5 * tau_old * (points.slip - plastic_slip);
+        const Value unloaded = dot(0.5 * tau_old, points.slip - plastic_slip);
 
-        const Value size      = F::absolute(tau);
-        const Value direction = tau < 0. ? none - 1. : none + 1.;
-        const Value along     = direction * points.slip;
+        const Value size      = magnitude(tau);
+        const Slips direction = direction_of(tau, size);
+        const Value slid      = magnitude(points.slip);
         const Value psi
-            = F::absolute(along) < law.critical_shear_displacement
-                  ? (along >= 0. ? none + law.dilation : none - law.dilation)
+            = slid < law.critical_shear_displacement
+                  ? law.dilation * cosine(direction, points.slip, slid)
                   : none;
         const Value excess = size - law.residual.cohesion + sigma * friction;
         Value stiffness    = ks + kn * psi * friction;
@@ -85,9 +87,9 @@ namespace quoin
         const Value dp
             = F::minimum(F::maximum(none, excess) / stiffness, size / ks);
         const Value sigma_slid = sigma - kn * psi * dp;
-        const Value tau_slid   = tau - direction * ks * dp;
+        const Slips tau_slid   = tau - dp * (ks * direction);
         const Value rubbed     = 0.5
-                             * ((tau_old + tau_slid) * direction
+                             * (dot(tau_old + tau_slid, direction)
                                 + (sigma_old + sigma_slid) * psi)
                              * dp;
 
@@ -99,10 +101,12 @@ namespace quoin
             += weight * ((failing & open & intact) ? opened + unloaded : none);
 
         const Value opening_slid = plastic_opening + psi * dp;
-        const Value slip_slid    = plastic_slip + direction * dp;
+        const Slips slip_slid    = plastic_slip + dp * direction;
         points.sigma = failing ? (open ? none + tension : sigma_slid) : sigma;
-        points.tau   = failing ? (open ? none : tau_slid) : tau;
-        F::store(at.plastic_slip, open ? points.slip : slip_slid, failing);
+        points.tau   = Slips::choose(failing,
+                                     Slips::choose(open, Slips{}, tau_slid), tau);
+        Slips::choose(open, points.slip, slip_slid)
+            .store(at.plastic_slip, failing);
         F::store(at.plastic_opening, opening_slid, failing & ~open);
         state = failing ? (open ? fill(JointState::open)
                                 : fill(JointState::slipping))

@@ -31,6 +31,7 @@ namespace quoin
   struct JointHistory
   {
     static constexpr const char *slice_name = "joints";
+    static constexpr int dimension          = 2;
 
     AlignedArray<double> normal_traction; /**< [Pa] */
     AlignedArray<double> shear_traction;  /**< [Pa] */

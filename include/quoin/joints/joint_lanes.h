@@ -4,24 +4,26 @@
 #ifndef quoin_joints_joint_lanes_h
 #define quoin_joints_joint_lanes_h
 
-#include <quoin/base/lane_functions.h>
-#include <quoin/joints/joint_point.h>
 #include <quoin/joints/point_arrays.h>
+#include <quoin/joints/slip_lanes.h>
 
 namespace quoin
 {
   /** Points under one law that are updated together, one in each lane. */
-  template <int lanes>
+  template <int lanes, int dim>
   struct PointLanes
   {
     using F     = LaneFunctions<lanes>;
     using Value = typename F::Value;
     using Bits  = typename F::Bits;
+    using Slips = SlipLanes<lanes, dim>;
 
-    PointArrays arrays;  /**< the first point's entries */
-    Value opening, slip; /**< where they are brought to [m] */
-    Value sigma, tau;    /**< their tractions there [Pa] */
-    Bits elastic;        /**< they neither fail, slip nor are open */
+    PointArrays<dim> arrays; /**< the first point's entries */
+    Value opening;           /**< where they are brought to [m] */
+    Slips slip;              /**< where they are brought to [m] */
+    Value sigma;             /**< their normal tractions there [Pa] */
+    Slips tau;               /**< their shear tractions there [Pa] */
+    Bits elastic;            /**< they neither fail, slip nor are open */
 
     QUOIN_INLINE Bits load_state() const
     {
@@ -36,12 +38,12 @@ namespace quoin
     QUOIN_INLINE void store_tractions() const
     {
       F::store(arrays.normal_traction, sigma);
-      F::store(arrays.shear_traction, tau);
+      tau.store(arrays.shear_traction);
     }
     QUOIN_INLINE void store_tractions(const Bits &mask) const
     {
       F::store(arrays.normal_traction, sigma, mask);
-      F::store(arrays.shear_traction, tau, mask);
+      tau.store(arrays.shear_traction, mask);
     }
   };
 
@@ -54,12 +56,13 @@ namespace quoin
 
   /** Brings the point in lane @p l to where it comes to, by @p law itself, and
       adds what that dissipated by its area @p weight. */
-  template <typename Law, int lanes>
-  void update_point(const Law &law, PointLanes<lanes> &points, const int l,
+  template <typename Law, int lanes, int dim>
+  void update_point(const Law &law, PointLanes<lanes, dim> &points, const int l,
                     const double weight, DissipationLanes<lanes> &lost)
   {
     auto point           = read_point(law, points.arrays, l);
-    const double opening = points.opening[l], slip = points.slip[l];
+    const double opening = points.opening[l];
+    const Slip<dim> slip = points.slip.at(l);
     if (!points.elastic[l])
     {
       const JointDissipation own = law.update_failing(point, opening, slip);
@@ -71,7 +74,7 @@ namespace quoin
       law.update_elastic(point, opening, slip);
     write_point(point, points.arrays, l);
     points.sigma[l] = point.normal_traction;
-    points.tau[l]   = point.shear_traction;
+    points.tau.set(l, point.shear_traction);
   }
 
   /**
@@ -80,7 +83,7 @@ namespace quoin
    * in the other lanes, because two ranks may have it beside others. A law is
    * specialised where speed matters; this one takes the points one by one.
    */
-  template <typename Law, int lanes>
+  template <typename Law, int lanes, int dim>
   class LawLanes
   {
   public:
@@ -96,7 +99,7 @@ namespace quoin
      * Sets elastic of @p points, and the tractions of those that are; changes
      * no history. Returns those of which nothing but tractions changes.
      */
-    Bits try_elastic(PointLanes<lanes> &points) const
+    Bits try_elastic(PointLanes<lanes, dim> &points) const
     {
       Bits steady{};
       points.elastic = Bits{};
@@ -104,12 +107,12 @@ namespace quoin
       {
         auto point       = read_point(law, points.arrays, l);
         const auto state = point.state;
-        if (!law.update_elastic(point, points.opening[l], points.slip[l]))
+        if (!law.update_elastic(point, points.opening[l], points.slip.at(l)))
           continue;
         points.elastic[l] = -1;
         points.sigma[l]   = point.normal_traction;
-        points.tau[l]     = point.shear_traction;
-        steady[l]         = point.state == state ? -1 : 0;
+        points.tau.set(l, point.shear_traction);
+        steady[l] = point.state == state ? -1 : 0;
       }
       return steady;
     }
@@ -118,7 +121,7 @@ namespace quoin
      * Brings the @p points of the mask @p present to where they come to, after
      * try_elastic(), and adds what that dissipated by their areas @p weight.
      */
-    void update(PointLanes<lanes> &points, const Bits &present,
+    void update(PointLanes<lanes, dim> &points, const Bits &present,
                 const Value &weight, DissipationLanes<lanes> &lost) const
     {
       for (int l = 0; l < lanes; ++l)

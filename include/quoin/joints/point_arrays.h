@@ -4,7 +4,8 @@
 #ifndef quoin_joints_point_arrays_h
 #define quoin_joints_point_arrays_h
 
-#include <quoin/joints/joint_history.h>
+#include <quoin/base/packed_vectors.h>
+#include <quoin/joints/joint_point.h>
 
 #include <algorithm>
 #include <array>
@@ -14,12 +15,16 @@
 
 namespace quoin
 {
-  template <typename Law>
-  using PointOf = typename std::decay_t<Law>::template Point<2>;
+  /** The point of @p Law in @p dim dimensions. */
+  template <typename Law, int dim = 2>
+  using PointOf = typename std::decay_t<Law>::template Point<dim>;
 
-  /** Pointers to the arrays of a JointHistory, or of a part of it. */
+  /** Pointers to the arrays of a joint history in @p dim dimensions, or of a
+      part of it. Shear tractions and slips have dim - 1 entries a point. */
+  template <int dim>
   struct PointArrays
   {
+    static constexpr int dimension              = dim;
     static constexpr unsigned int most_internal = JointHistory::most_internal;
 
     double *normal_traction;
@@ -32,10 +37,12 @@ namespace quoin
     /** Arrays from point @p p on. */
     PointArrays from(const unsigned int p) const
     {
-      PointArrays part{
-        normal_traction + p, shear_traction + p, plastic_slip + p,
-        plastic_opening + p, internal,           state + p
-      };
+      PointArrays part{ normal_traction + p,
+                        shear_traction + (dim - 1) * p,
+                        plastic_slip + (dim - 1) * p,
+                        plastic_opening + p,
+                        internal,
+                        state + p };
       for (double *&variable : part.internal)
         if (variable)
           variable += p;
@@ -43,61 +50,92 @@ namespace quoin
     }
   };
 
-  inline PointArrays arrays_of(JointHistory &history)
+  template <typename History>
+  PointArrays<History::dimension> arrays_of(History &history)
   {
-    PointArrays result{ history.normal_traction.data(),
-                        history.shear_traction.data(),
-                        history.plastic_slip.data(),
-                        history.plastic_opening.data(),
-                        {},
-                        history.state.data() };
-    for (unsigned int i = 0; i < PointArrays::most_internal; ++i)
+    PointArrays<History::dimension> result{ history.normal_traction.data(),
+                                            history.shear_traction.data(),
+                                            history.plastic_slip.data(),
+                                            history.plastic_opening.data(),
+                                            {},
+                                            history.state.data() };
+    for (unsigned int i = 0; i < result.most_internal; ++i)
       result.internal[i]
           = history.internal[i].empty() ? nullptr : history.internal[i].data();
     return result;
   }
 
-  inline void copy_points(const PointArrays &from, const PointArrays &to,
-                          const unsigned int n)
+  template <int dim>
+  void copy_points(const PointArrays<dim> &from, const PointArrays<dim> &to,
+                   const unsigned int n)
   {
     std::copy_n(from.normal_traction, n, to.normal_traction);
-    std::copy_n(from.shear_traction, n, to.shear_traction);
-    std::copy_n(from.plastic_slip, n, to.plastic_slip);
+    std::copy_n(from.shear_traction, (dim - 1) * n, to.shear_traction);
+    std::copy_n(from.plastic_slip, (dim - 1) * n, to.plastic_slip);
     std::copy_n(from.plastic_opening, n, to.plastic_opening);
     std::copy_n(from.state, n, to.state);
-    for (unsigned int i = 0; i < PointArrays::most_internal; ++i)
+    for (unsigned int i = 0; i < from.most_internal; ++i)
       if (from.internal[i] && to.internal[i])
         std::copy_n(from.internal[i], n, to.internal[i]);
   }
 
   /** Arrays of @p n points of their own. */
-  template <int n>
+  template <int n, int dim>
   struct PointPack
   {
-    alignas(64) double values[4 + PointArrays::most_internal][n]{};
+    static constexpr unsigned int most_internal
+        = PointArrays<dim>::most_internal;
+    alignas(64) double normal_traction[n]{};
+    alignas(64) double shear_traction[(dim - 1) * n]{};
+    alignas(64) double plastic_slip[(dim - 1) * n]{};
+    alignas(64) double plastic_opening[n]{};
+    alignas(64) double internal[most_internal][n]{};
     JointState state[n]{};
 
-    PointArrays arrays()
+    PointArrays<dim> arrays()
     {
-      PointArrays result{
-        values[0], values[1], values[2], values[3], {}, state
-      };
-      for (unsigned int i = 0; i < PointArrays::most_internal; ++i)
-        result.internal[i] = values[4 + i];
+      PointArrays<dim> result{ normal_traction,
+                               shear_traction,
+                               plastic_slip,
+                               plastic_opening,
+                               {},
+                               state };
+      for (unsigned int i = 0; i < most_internal; ++i)
+        result.internal[i] = internal[i];
       return result;
     }
   };
 
-  /** @p History: JointHistory or PointArrays, here and below. */
-  template <typename Law, typename History>
-  PointOf<Law> read_point(const Law &, const History &history,
-                          const unsigned int p)
+  /** A slip or a shear traction out of an array of them, and into it. */
+  template <int dim, typename Values>
+  Slip<dim> slip_at(const Values &values, const unsigned int p)
   {
-    using Point = PointOf<Law>;
+    if constexpr (dim == 2)
+      return values[p];
+    else
+      return vector_at<dim - 1>(values, p);
+  }
+  template <int dim, typename Values>
+  void set_slip(Values &values, const unsigned int p, const Slip<dim> &slip)
+  {
+    if constexpr (dim == 2)
+      values[p] = slip;
+    else
+      set_vector(values, p, slip);
+  }
+
+  /** @p History: JointHistory, SpaceJointHistory or PointArrays, here and
+      below. */
+  template <typename Law, typename History>
+  PointOf<Law, History::dimension>
+  read_point(const Law &, const History &history, const unsigned int p)
+  {
+    constexpr int dim = History::dimension;
+    using Point       = PointOf<Law, dim>;
     Point point;
     point.normal_traction = history.normal_traction[p];
-    point.shear_traction  = history.shear_traction[p];
-    point.plastic_slip    = history.plastic_slip[p];
+    point.shear_traction  = slip_at<dim>(history.shear_traction, p);
+    point.plastic_slip    = slip_at<dim>(history.plastic_slip, p);
     point.plastic_opening = history.plastic_opening[p];
     point.state           = history.state[p];
     for (unsigned int i = 0; i < Point::internal.size(); ++i)
@@ -108,9 +146,10 @@ namespace quoin
   template <typename Point, typename History>
   void write_point(const Point &point, History &history, const unsigned int p)
   {
+    constexpr int dim          = History::dimension;
     history.normal_traction[p] = point.normal_traction;
-    history.shear_traction[p]  = point.shear_traction;
-    history.plastic_slip[p]    = point.plastic_slip;
+    set_slip<dim>(history.shear_traction, p, point.shear_traction);
+    set_slip<dim>(history.plastic_slip, p, point.plastic_slip);
     history.plastic_opening[p] = point.plastic_opening;
     history.state[p]           = point.state;
     for (unsigned int i = 0; i < Point::internal.size(); ++i)

@@ -4,6 +4,7 @@
 #include "space_stack.h"
 
 #include <quoin/joint_elements/joint_tangent.h>
+#include <quoin/joints/point_arrays.h>
 #include <quoin/operators/stored_energy.h>
 #include <quoin/base/exceptions.h>
 
@@ -38,6 +39,126 @@ TEST(SpaceJoints, FacesHaveTheirAreaAndNormalsPointUp)
     }
   }
   EXPECT_NEAR(total, area.norm(), 1e-12);
+}
+
+namespace
+{
+  /** SpaceJoints::add_forces() point by point, by the equations of theory.md,
+      "Joints in three dimensions". */
+  template <typename Law>
+  void add_forces_by_point(const Law &law, const Stack &stack,
+                           SpaceJointHistory &history, EnergyAccounts &energy,
+                           std::vector<Vector> &force)
+  {
+    for (unsigned int i = 0; i < stack.joints.faces().size(); ++i)
+    {
+      if (history.detached[i])
+        continue;
+      const SpaceJointFace &face = stack.joints.faces()[i];
+      const auto mean            = [&](const unsigned int k)
+      {
+        return 0.5
+               * (stack.position(face.lower[k])
+                  + stack.position(face.upper[k]));
+      };
+      const Vector e1 = mean(1) - mean(0), e2 = mean(2) - mean(0);
+      const Vector normal = cross_product_3d(e1, e2);
+      const Vector n = normal / normal.norm(), s = e1 / e1.norm();
+      const Vector t = cross_product_3d(n, s);
+      const auto gap = joint_gaps(face, stack.state.nodes.data());
+      Vector couple;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        Slip<3> slip;
+        slip[0]    = gap[k][1];
+        slip[1]    = gap[k][2];
+        auto point = read_point(law, history, 3 * i + k);
+        JointDissipation lost;
+        if (!law.update_elastic(point, gap[k][0], slip))
+          lost = law.update_failing(point, gap[k][0], slip);
+        write_point(point, history, 3 * i + k);
+        energy.friction += face.area * face.share * lost.friction;
+        energy.fracture += face.area * face.share * lost.fracture;
+        energy.crushing += face.area * face.share * lost.crushing;
+        const Vector pull
+            = face.area
+              * (point.normal_traction * n + point.shear_traction[0] * s
+                 + point.shear_traction[1] * t);
+        force[face.lower[k]] += pull;
+        force[face.upper[k]] -= pull;
+        couple += cross_product_3d(pull, stack.position(face.upper[k])
+                                             - stack.position(face.lower[k]));
+      }
+      // The triangle of mean positions turns with the frame: forces on its
+      // vertices whose moment is the couple, without resultant, across e1 at
+      // its second one and across the plane at both.
+      const double lift = couple * s / (e2 * t);
+      const Vector f2   = -lift * n;
+      const Vector f1
+          = ((couple * t + lift * (e2 * s)) * n - couple * n * t) / e1.norm();
+      for (const auto &side : { face.lower, face.upper })
+      {
+        force[side[0]] -= 0.5 * (f1 + f2);
+        force[side[1]] += 0.5 * f1;
+        force[side[2]] += 0.5 * f2;
+      }
+    }
+  }
+
+  /** Walks of the 2 @p nx faces at random, the last but one of which is
+      detached on the way; @p reach: size of their gaps [m]. */
+  template <typename Law>
+  void expect_same_as_by_point(const Law &law, const unsigned int nx,
+                               const double reach)
+  {
+    Stack stack(law, nx);
+    const unsigned int n_faces = stack.joints.faces().size();
+    ASSERT_EQ(n_faces, 2 * nx);
+    SpaceJointHistory history = stack.history();
+    EnergyAccounts energy;
+    unsigned int n_failed = 0;
+    for (unsigned int step = 0; step < 40; ++step)
+    {
+      stack.shake(0.2 * reach, 100 * nx + step);
+      if (step == 20)
+        stack.history().detached[n_faces - 2] = history.detached[n_faces - 2]
+            = 1;
+      stack.update();
+      std::vector<Vector> force(stack.force.size());
+      add_forces_by_point(law, stack, history, energy, force);
+
+      const double unit = reach * kn * 0.04;
+      for (unsigned int v = 0; v < force.size(); ++v)
+        EXPECT_NEAR((stack.force[v] - force[v]).norm(), 0., 1e-13 * unit);
+      const SpaceJointHistory &now = stack.history();
+      for (unsigned int p = 0; p < 3 * n_faces; ++p)
+      {
+        EXPECT_EQ(now.state[p], history.state[p]);
+        for (const unsigned int c : { 2 * p, 2 * p + 1 })
+          EXPECT_NEAR(now.plastic_slip[c], history.plastic_slip[c],
+                      1e-13 * reach);
+        n_failed += now.state[p] != JointState::intact;
+      }
+      EXPECT_NEAR(stack.energy.friction, energy.friction,
+                  1e-13 * n_faces * unit * reach);
+      EXPECT_NEAR(stack.energy.fracture, energy.fracture,
+                  1e-13 * n_faces * unit * reach);
+      EXPECT_NEAR(stack.energy.crushing, energy.crushing,
+                  1e-13 * n_faces * unit * reach);
+    }
+    EXPECT_GT(n_failed, n_faces);
+  }
+} // namespace
+
+TEST(SpaceJoints, FacesTogetherAreAsPointByPoint)
+{
+  for (const unsigned int nx : { 1U, 2U, 3U, 4U, 11U })
+  {
+    expect_same_as_by_point(coulomb(), nx, 5e-4);
+    expect_same_as_by_point(composite_test::wall(), nx, 3e-5);
+    expect_same_as_by_point(composite_test::dilatant(), nx, 3e-5);
+    expect_same_as_by_point(rock_test::rough(), nx, 1e-4);
+  }
 }
 
 TEST(SpaceJoints, TractionOfUniformOpeningAndSlip)

@@ -85,14 +85,15 @@ namespace quoin::test::space_stack
              rock_test::yielding() };
   }
 
-  /** Two boxes of 2 x 1 x 1 cubes on each other, @p placed in space. */
+  /** Two boxes of @p nx x 1 x 1 cubes on each other, @p placed in space. */
   inline BlockMesh<3>
-  stack(const std::function<dealii::Point<3>(dealii::Point<3>)> &placed)
+  stack(const unsigned int nx,
+        const std::function<dealii::Point<3>(dealii::Point<3>)> &placed)
   {
     MeshData<3> data;
     data.group_names = { "low", "high" };
     data.face_names  = { "" };
-    const Count n    = { { 2, 1, 2 } };
+    const Count n    = { { nx, 1, 2 } };
     for (const auto &p : box_points(n, 0.5))
       data.vertices.push_back(placed(p));
     data.cells = box_cells(n);
@@ -123,8 +124,8 @@ namespace quoin::test::space_stack
     AlignedArray<dealii::Tensor<1, 3>> force;
     EnergyAccounts energy;
 
-    explicit Stack(const JointLaw &law)
-      : mesh(stack(inclined)),
+    explicit Stack(const JointLaw &law, const unsigned int nx = 2)
+      : mesh(stack(nx, inclined)),
         blocks(mesh, std::vector<unsigned int>(mesh.n_cells(), 0),
                std::vector<bool>(mesh.n_blocks(), false), MPI_COMM_SELF),
         nodes(blocks)

@@ -19,43 +19,63 @@ using namespace quoin;
 
 namespace
 {
-  template <int lanes>
-  using Pack = PointPack<lanes>;
+  template <int lanes, int dim>
+  using Pack = PointPack<lanes, dim>;
+
+  /** Calls @p use with each array of numbers of @p pack and how many a point
+      has. */
+  template <int lanes, int dim, typename Use>
+  void for_arrays(Pack<lanes, dim> &pack, const Use &use)
+  {
+    use(pack.normal_traction, 1);
+    use(pack.shear_traction, dim - 1);
+    use(pack.plastic_slip, dim - 1);
+    use(pack.plastic_opening, 1);
+    for (auto &variable : pack.internal)
+      use(variable, 1);
+  }
 
   /** The point in lane @p l in all lanes. */
-  template <int lanes>
-  Pack<lanes> filled_with(const Pack<lanes> &pack, const int l)
+  template <int lanes, int dim>
+  Pack<lanes, dim> filled_with(Pack<lanes, dim> pack, const int l)
   {
-    Pack<lanes> result;
-    for (unsigned int i = 0; i < 4 + PointArrays::most_internal; ++i)
-      std::fill_n(result.values[i], lanes, pack.values[i][l]);
-    std::fill_n(result.state, lanes, pack.state[l]);
-    return result;
+    for_arrays(pack,
+               [l](double *values, const int n)
+               {
+                 for (int i = 0; i < n * lanes; ++i)
+                   if (i / n < l)
+                     values[i] = values[n * l + i % n];
+                 for (int i = n * (l + 1); i < n * lanes; ++i)
+                   values[i] = values[n * l + i % n];
+               });
+    std::fill_n(pack.state, lanes, JointState(pack.state[l]));
+    return pack;
   }
 
   /** What points have come to, and what that dissipated. */
-  template <int lanes>
+  template <int lanes, int dim>
   struct Update
   {
-    Pack<lanes> pack;
-    PointLanes<lanes> points;
+    Pack<lanes, dim> pack;
+    PointLanes<lanes, dim> points;
     DissipationLanes<lanes> lost;
     bool is_steady; /**< nothing but tractions changed */
   };
 
-  template <typename Law, int lanes>
-  Update<lanes> update(const Law &law, const Pack<lanes> &before,
-                       const double (&opening)[lanes],
-                       const double (&slip)[lanes], const double weight)
+  template <int lanes, int dim, typename Law>
+  Update<lanes, dim> update(const Law &law, const Pack<lanes, dim> &before,
+                            const double (&opening)[lanes],
+                            const Slip<dim> (&slip)[lanes], const double weight)
   {
     using F = LaneFunctions<lanes>;
-    const LawLanes<Law, lanes> laws(law);
-    Update<lanes> result;
-    result.pack                = before;
-    auto &points               = result.points;
-    points.arrays              = result.pack.arrays();
-    points.opening             = F::load(opening);
-    points.slip                = F::load(slip);
+    const LawLanes<Law, lanes, dim> laws(law);
+    Update<lanes, dim> result;
+    result.pack    = before;
+    auto &points   = result.points;
+    points.arrays  = result.pack.arrays();
+    points.opening = F::load(opening);
+    for (int l = 0; l < lanes; ++l)
+      points.slip.set(l, slip[l]);
     const auto steady          = laws.try_elastic(points);
     result.is_steady           = F::all(steady);
     const typename F::Bits all = ~typename F::Bits{};
@@ -64,6 +84,21 @@ namespace
     else
       laws.update(points, all, typename F::Value{} + weight, result.lost);
     return result;
+  }
+
+  /** A slip or a traction of random components. */
+  template <int dim, typename Random>
+  Slip<dim> random_slip(const double size, Random &&random)
+  {
+    if constexpr (dim == 2)
+      return size * random();
+    else
+    {
+      Slip<dim> slip;
+      for (int c = 0; c < dim - 1; ++c)
+        slip[c] = size * random();
+      return slip;
+    }
   }
 
   /** Largest differences, and how often points came to each state. */
@@ -89,7 +124,7 @@ namespace
    * lanes have come to before, so that errors do not add up; @p scales: what a
    * difference of the internal variables is held against.
    */
-  template <typename Law, int lanes>
+  template <int lanes, int dim, typename Law>
   Comparison compare(const Law &law, const double closed, const double reach,
                      const std::array<double, 4> &scales)
   {
@@ -102,35 +137,40 @@ namespace
     Comparison worst;
     for (unsigned int walk = 0; walk < 60; ++walk)
     {
-      Pack<lanes> pack;
-      PointArrays first = pack.arrays();
+      Pack<lanes, dim> pack;
+      PointArrays<dim> first = pack.arrays();
       for (int l = 0; l < lanes; ++l)
-        write_point(PointOf<Law>(), first, l);
-      double opening[lanes]{}, slip[lanes]{}, from[2][lanes], to[2][lanes]{};
+        write_point(PointOf<Law, dim>(), first, l);
+      double opening[lanes]{}, opening_from[lanes]{}, opening_to[lanes]{};
+      Slip<dim> slip[lanes]{}, slip_from[lanes]{}, slip_to[lanes]{};
       for (unsigned int piece = 0; piece < 30; ++piece)
       {
-        std::copy_n(to[0], lanes, from[0]);
-        std::copy_n(to[1], lanes, from[1]);
+        std::copy_n(opening_to, lanes, opening_from);
+        std::copy_n(slip_to, lanes, slip_from);
         // Pieces of very different sizes; some stay where they are.
         for (int l = 0; l < lanes; ++l)
         {
           const double size = reach * std::pow(10., uniform(random) - 1.);
-          to[0][l]          = -closed + size * uniform(random);
-          to[1][l] = (piece + l) % 7 == 0 ? to[1][l] : size * uniform(random);
+          opening_to[l]     = -closed + size * uniform(random);
+          if ((piece + l) % 7 != 0)
+            slip_to[l]
+                = random_slip<dim>(size, [&] { return uniform(random); });
         }
         for (unsigned int step = 1; step <= n_steps; ++step)
         {
           for (int l = 0; l < lanes; ++l)
           {
             const double t = double(step) / n_steps;
-            opening[l]     = from[0][l] + t * (to[0][l] - from[0][l]);
-            slip[l]        = from[1][l] + t * (to[1][l] - from[1][l]);
+            opening[l]
+                = opening_from[l] + t * (opening_to[l] - opening_from[l]);
+            slip[l] = slip_from[l] + t * (slip_to[l] - slip_from[l]);
           }
-          Pack<lanes> before      = pack;
-          const Update<lanes> now = update(law, before, opening, slip, weight);
-          pack                    = now.pack;
+          Pack<lanes, dim> before = pack;
+          const auto now
+              = update<lanes, dim>(law, before, opening, slip, weight);
+          pack = now.pack;
           worst.n_steady += now.is_steady;
-          PointArrays old = before.arrays(), after = pack.arrays();
+          PointArrays<dim> old = before.arrays(), after = pack.arrays();
           for (int l = 0; l < lanes; ++l)
           {
             const auto start = read_point(law, old, l);
@@ -141,16 +181,16 @@ namespace
             const auto there = read_point(law, after, l);
             for (const double d :
                  { there.normal_traction - point.normal_traction,
-                   there.shear_traction - point.shear_traction,
+                   magnitude(there.shear_traction - point.shear_traction),
                    now.points.sigma[l] - point.normal_traction,
-                   now.points.tau[l] - point.shear_traction })
+                   magnitude(now.points.tau.at(l) - point.shear_traction) })
               worst.tractions = std::max(worst.tractions, std::abs(d) / stress);
             worst.others = std::max(
                 { worst.others,
-                  std::abs(there.plastic_slip - point.plastic_slip) / reach,
+                  magnitude(there.plastic_slip - point.plastic_slip) / reach,
                   std::abs(there.plastic_opening - point.plastic_opening)
                       / reach });
-            constexpr auto &internal = PointOf<Law>::internal;
+            constexpr auto &internal = PointOf<Law, dim>::internal;
             for (unsigned int i = 0; i < internal.size(); ++i)
               worst.others
                   = std::max(worst.others,
@@ -173,26 +213,33 @@ namespace
 
           // The neighbours of a point do not matter.
           const int l = step % lanes;
-          double same_opening[lanes], same_slip[lanes];
-          std::fill_n(same_opening, lanes, opening[l]);
-          std::fill_n(same_slip, lanes, slip[l]);
-          const Update<lanes> alone = update(law, filled_with(before, l),
-                                             same_opening, same_slip, weight);
-          for (unsigned int i = 0; i < 4 + PointArrays::most_internal; ++i)
-            worst.n_neighbours += alone.pack.values[i][0] != pack.values[i][l];
-          worst.n_neighbours += alone.pack.state[0] != pack.state[l];
+          double same_opening[lanes];
+          Slip<dim> same_slip[lanes];
+          std::fill_n(same_opening, lanes, double(opening[l]));
+          std::fill_n(same_slip, lanes, Slip<dim>(slip[l]));
+          auto alone = update<lanes, dim>(law, filled_with(before, l),
+                                          same_opening, same_slip, weight)
+                           .pack;
+          auto expected = filled_with(pack, l);
+          std::vector<double> values[2];
+          for (auto &[of, to] :
+               { std::tie(alone, values[0]), std::tie(expected, values[1]) })
+            for_arrays(of, [&to = to](const double *all, const int n)
+                       { to.insert(to.end(), all, all + n); });
+          worst.n_neighbours
+              += values[0] != values[1] || alone.state[0] != pack.state[l];
         }
       }
     }
     return worst;
   }
 
-  template <typename Law, int lanes>
+  template <int lanes, int dim, typename Law>
   Comparison
   expect_same(const Law &law, const double closed, const double reach,
               const std::array<double, 4> &scales = { 1., 1., 1., 1. })
   {
-    const Comparison worst = compare<Law, lanes>(law, closed, reach, scales);
+    const Comparison worst = compare<lanes, dim>(law, closed, reach, scales);
     EXPECT_LT(worst.tractions, 1e-14);
     EXPECT_LT(worst.others, 1e-14);
     EXPECT_LT(worst.lost, 1e-14);
@@ -213,11 +260,10 @@ namespace
     return law;
   }
 
-  template <int lanes>
+  template <int lanes, int dim>
   void check_coulomb()
   {
-    const Comparison visited
-        = expect_same<CoulombLaw, lanes>(brittle(), 2e-4, 1e-3);
+    const Comparison visited = expect_same<lanes, dim>(brittle(), 2e-4, 1e-3);
     for (const JointState state : { JointState::intact, JointState::slipping,
                                     JointState::slipped, JointState::open })
       EXPECT_GT(visited.visits.at(state), 500U) << static_cast<int>(state);
@@ -228,23 +274,23 @@ namespace
     CoulombLaw never;
     never.normal_stiffness   = 8e9;
     never.shear_stiffness    = 3e9;
-    const Comparison elastic = expect_same<CoulombLaw, lanes>(never, 0., 1e-3);
+    const Comparison elastic = expect_same<lanes, dim>(never, 0., 1e-3);
     EXPECT_EQ(elastic.visits.size(), 1U);
 
     CoulombLaw loose = never;
     loose.peak = loose.residual = { 0., 0.6, 0. };
-    expect_same<CoulombLaw, lanes>(loose, 2e-4, 1e-3);
+    expect_same<lanes, dim>(loose, 2e-4, 1e-3);
   }
 
-  template <int lanes>
+  template <int lanes, int dim>
   void check_composite(const CompositeLaw &law, const bool closes)
   {
     const double kp = law.cap.peak_crushing;
     // Tension and slip, then pressure up to the cap as well
-    const Comparison light = expect_same<CompositeLaw, lanes>(
-        law, 5e-6, 3e-5, { 1., kp, 3e-5, 1. });
-    const Comparison heavy = expect_same<CompositeLaw, lanes>(
-        law, 9e-5, 2e-4, { 1., kp, 2e-4, 1. });
+    const Comparison light
+        = expect_same<lanes, dim>(law, 5e-6, 3e-5, { 1., kp, 3e-5, 1. });
+    const Comparison heavy
+        = expect_same<lanes, dim>(law, 9e-5, 2e-4, { 1., kp, 2e-4, 1. });
     for (const Comparison &visited : { light, heavy })
     {
       for (const JointState state : { JointState::intact, JointState::slipping,
@@ -260,20 +306,27 @@ namespace
 
 TEST(LawLanes, Coulomb)
 {
-  check_coulomb<4>();
-  check_coulomb<8>();
+  check_coulomb<4, 2>();
+  check_coulomb<4, 3>();
+  check_coulomb<8, 2>();
+  check_coulomb<8, 3>();
 }
 
 TEST(LawLanes, Composite)
 {
-  check_composite<4>(composite_test::wall(), false);
-  check_composite<8>(composite_test::wall(), false);
+  check_composite<4, 2>(composite_test::wall(), false);
+  check_composite<4, 3>(composite_test::wall(), false);
+  check_composite<8, 2>(composite_test::wall(), false);
+  check_composite<8, 3>(composite_test::wall(), false);
   CompositeLaw closing      = composite_test::wall();
   closing.residual_friction = 0.5;
   closing.cracks_close      = true;
-  check_composite<4>(closing, true);
-  check_composite<8>(closing, true);
-  check_composite<4>(composite_test::dilatant(), false);
+  check_composite<4, 2>(closing, true);
+  check_composite<4, 3>(closing, true);
+  check_composite<8, 2>(closing, true);
+  check_composite<8, 3>(closing, true);
+  check_composite<4, 2>(composite_test::dilatant(), false);
+  check_composite<4, 3>(composite_test::dilatant(), false);
 }
 
 TEST(LawLanes, LawsThatHaveNone)
@@ -285,8 +338,38 @@ TEST(LawLanes, LawsThatHaveNone)
   fault.friction          = 0.7;
   fault.residual_friction = 0.4;
   fault.weakening_slip    = 1e-3;
-  expect_same<SlipWeakeningLaw, 4>(fault, 2e-4, 1e-3);
-  expect_same<BartonBandisLaw, 8>(rock_test::rough(), 1e-4, 1e-4);
+  expect_same<4, 2>(fault, 2e-4, 1e-3);
+  expect_same<4, 3>(fault, 2e-4, 1e-3);
+  expect_same<8, 2>(rock_test::rough(), 1e-4, 1e-4);
+  expect_same<8, 3>(rock_test::rough(), 1e-4, 1e-4);
+}
+
+template <int lanes, int n>
+void
+check_interleaving()
+{
+  using F     = LaneFunctions<lanes>;
+  using Value = typename F::Value;
+  Value from[n], to[n], back[n];
+  for (int i = 0; i < n; ++i)
+    for (int l = 0; l < lanes; ++l)
+      from[i][l] = n * l + i;
+  F::interleave(from, to);
+  F::take_apart(to, back);
+  for (int i = 0; i < n; ++i)
+    for (int l = 0; l < lanes; ++l)
+    {
+      EXPECT_EQ(to[i][l], i * lanes + l);
+      EXPECT_EQ(back[i][l], from[i][l]);
+    }
+}
+
+TEST(LawLanes, Interleaving)
+{
+  check_interleaving<4, 2>();
+  check_interleaving<8, 2>();
+  check_interleaving<4, 3>();
+  check_interleaving<8, 3>();
 }
 
 TEST(LawLanes, ExponentialAndLogarithm)
