@@ -30,13 +30,17 @@ namespace quoin
       if (made.geometry.empty())
         return read_any_gmsh(parameters.mesh_file, communicator,
                              parameters.dimension, parameters.cells);
-      std::string section = made.name;
-      section[0]          = std::toupper(section[0]);
-      if (parameters.dimension == MeshDimension::three)
-        section += " box";
-      return mesh_any_gmsh_geometry(made.geometry, "section " + section,
-                                    communicator, parameters.dimension,
-                                    parameters.cells);
+      std::string maker = parameters.mesh_file;
+      if (maker.empty())
+      {
+        maker    = made.name;
+        maker[0] = std::toupper(maker[0]);
+        if (parameters.dimension == MeshDimension::three)
+          maker += " box";
+        maker = "section " + maker;
+      }
+      return mesh_any_gmsh_geometry(made.geometry, maker, communicator,
+                                    parameters.dimension, parameters.cells);
     }
 
     /** The kind of problem that @p parameters describe. */

@@ -198,7 +198,8 @@ namespace quoin
                               {
                                 return read(
                                     "/dev/stdin", geometry, maker,
-                                    "Change the parameters of that section.",
+                                    "Change the parameters of that section "
+                                    "or the blocks of that file.",
                                     dimension, cells);
                               });
   }

@@ -4,6 +4,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/layout/arch_layout.h>
+#include <quoin/layout/block_surfaces.h>
 #include <quoin/rock/rock_box.h>
 #include <quoin/rock/rock_layout.h>
 #include <quoin/layout/wall_layout.h>
@@ -116,11 +117,36 @@ namespace quoin
       return true;
     }
 
+    /** Reads the blocks of another program as a geometry. */
+    void read_blocks(const ParameterSection &section, Parameters &parameters)
+    {
+      if (parameters.element_size <= 0.)
+        section.fail("Element size",
+                     "must be greater than 0 for the blocks of a .obj, .stl or "
+                     ".3dgrid file, whose faces say nothing of the mesh.");
+      const BlockSurfaces blocks = read_block_surfaces(parameters.mesh_file);
+      const GmshGeometry geometry
+          = block_geometry(blocks, parameters.element_size);
+      parameters.generated
+          = { "blocks", geometry.text, block_report(blocks), "",
+              text_of("'Element size' of section 'Mesh' is ",
+                      parameters.element_size,
+                      " m: a larger one makes the time step longer where no "
+                      "edge of a block is shorter") };
+      if (parameters.split.joints_along.empty())
+        parameters.split.joints_along = geometry.joint_curves;
+      if (parameters.dimension == MeshDimension::two)
+        section.fail("Dimension", "must be 3 for the blocks of a .obj, .stl or "
+                                  ".3dgrid file: set 'from mesh'.");
+      parameters.dimension = MeshDimension::three;
+    }
+
     void check_mesh_file(const ParameterSection &section,
                          Parameters &parameters)
     {
       if (parameters.mesh_file.empty())
-        section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
+        section.fail("File", "must name a .geo or .msh file or one with "
+                             "blocks, or section 'Wall' "
                              "a bond, section 'Arch' a span, or section "
                              "'Rock' an outline.");
       parameters.mesh_file = in_folder(section, parameters.mesh_file);
@@ -132,8 +158,10 @@ namespace quoin
                            "file.");
       const auto extension
           = std::filesystem::path(parameters.mesh_file).extension();
-      if (extension != ".geo" && extension != ".msh")
-        section.fail("File", "must end in .geo or .msh.");
+      if (extension != ".geo" && extension != ".msh"
+          && !is_surface_file(parameters.mesh_file))
+        section.fail("File", "must end in .geo or .msh or, for blocks of "
+                             "another program, in .obj, .stl or .3dgrid.");
     }
 
     /** Makes @p wanted the dimension of the geometry that was @p made. */
@@ -156,9 +184,15 @@ namespace quoin
     {
       entries.text("File", parameters.mesh_file,
                    "gmsh geometry (.geo) or mesh (.msh) with coordinates in "
-                   "[m], given relative to the folder of this file; empty if "
+                   "[m], given relative to the folder of this file; or "
+                   "polyhedral blocks as closed surfaces: Wavefront OBJ "
+                   "(.obj), STL (.stl) or the text grid of 3DEC (.3dgrid), "
+                   "which are joined where they touch and meshed; empty if "
                    "section 'Wall', 'Arch', 'Rock' or 'Rock box' generates the "
                    "geometry.");
+      entries.nonnegative("Element size", parameters.element_size,
+                          "Length of the edges of the tetrahedra of blocks of "
+                          "a .obj, .stl or .3dgrid file [m]");
       entries.choice("Dimension", parameters.dimension,
                      { { "from mesh", MeshDimension::from_mesh },
                        { "2", MeshDimension::two },
@@ -222,7 +256,16 @@ namespace quoin
     ParameterEntries entries(section);
     enter_mesh(entries, parameters);
     if (!generated)
+    {
       check_mesh_file(section, parameters);
+      const bool is_surface = is_surface_file(parameters.mesh_file);
+      if (!is_surface && parameters.element_size > 0.)
+        section.fail("Element size",
+                     "is for blocks of a .obj, .stl or .3dgrid file; a "
+                     "geometry or a mesh of gmsh has its own. Set it to 0.");
+      if (is_surface)
+        naming(top.file(), [&]() { read_blocks(section, parameters); });
+    }
     else if (parameters.split.joints_along.empty())
       parameters.split.joints_along = joints_of_layout;
     if (generated)
