@@ -32,7 +32,7 @@ namespace quoin
                              parameters.dimension, parameters.cells);
       std::string section = made.name;
       section[0]          = std::toupper(section[0]);
-      if (parameters.dimension == MeshDimension::three)
+      if (parameters.dimension == MeshDimension::three && !made.is_mesh)
         section += " box";
       return mesh_any_gmsh_geometry(made.geometry, "section " + section,
                                     communicator, parameters.dimension,
