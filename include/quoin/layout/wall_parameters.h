@@ -52,7 +52,7 @@ namespace quoin
     /** Names of courses, counted from 1. */
     std::map<unsigned int, std::string> named_courses;
     /** Courses of headers in another bond, counted from 1. */
-    std::set<unsigned int> header_courses;
+    std::set<unsigned int> header_courses = {};
 
     /** Name of course @p number, which is that of the storey if it has none. */
     const std::string &course_name(const unsigned int number) const
