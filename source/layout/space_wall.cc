@@ -48,10 +48,10 @@ namespace quoin
       return result;
     }
 
-    class Layer
+    class Bricklayer
     {
     public:
-      Layer(const WallParameters &wall, SpaceWall &layout)
+      Bricklayer(const WallParameters &wall, SpaceWall &layout)
         : wall(wall), layout(layout)
       {
       }
@@ -62,8 +62,7 @@ namespace quoin
     private:
       void add(const WallUnit &unit, unsigned int s, unsigned int first_wythe,
                unsigned int end_wythe, const std::vector<double> &levels);
-      /** Number of the body of @p box, the next one of segment @p s. */
-      unsigned int body(const WallBox &box);
+      unsigned int body(const WallUnit &unit);
 
       const WallParameters &wall;
       SpaceWall &layout;
@@ -71,15 +70,8 @@ namespace quoin
       std::map<unsigned int, unsigned int> layers; /**< bodies by row */
     };
 
-    unsigned int Layer::body(const WallBox &box)
+    unsigned int Bricklayer::body(const WallUnit &unit)
     {
-      const WallUnit &unit = box.unit;
-      if (unit.kind == WallUnit::lintel)
-        for (const WallBox &other : layout.boxes)
-          if (other.unit.kind == WallUnit::lintel
-              && other.segment == box.segment && other.unit.row + 1 == unit.row
-              && other.unit.left == unit.left && other.unit.right == unit.right)
-            return other.body;
       if (unit.kind == WallUnit::unit || unit.kind == WallUnit::lintel)
         return n_bodies++;
       const auto [place, is_new] = layers.emplace(unit.row, n_bodies);
@@ -87,17 +79,17 @@ namespace quoin
       return place->second;
     }
 
-    void Layer::add(const WallUnit &unit, const unsigned int s,
-                    const unsigned int first_wythe,
-                    const unsigned int end_wythe,
-                    const std::vector<double> &levels)
+    void Bricklayer::add(const WallUnit &unit, const unsigned int s,
+                         const unsigned int first_wythe,
+                         const unsigned int end_wythe,
+                         const std::vector<double> &levels)
     {
       const WallSegment &segment = wall.segments[s];
       const unsigned int a = segment.along, b = 1 - a;
       WallBox box;
       box.unit        = unit;
       box.segment     = s;
-      box.body        = body(box);
+      box.body        = body(unit);
       auto &low       = box.box.low;
       auto &high      = box.box.high;
       low[a]          = segment.start[a] + unit.left;
@@ -115,7 +107,7 @@ namespace quoin
       layout.boxes.push_back(box);
     }
 
-    void Layer::lay(const unsigned int s)
+    void Bricklayer::lay(const unsigned int s)
     {
       const WallSegment &segment = wall.segments[s];
       const WallParameters plane = plane_wall(wall, segment);
@@ -253,7 +245,7 @@ namespace quoin
   SpaceWall lay_space_wall(const WallParameters &wall)
   {
     SpaceWall layout;
-    Layer layer(wall, layout);
+    Bricklayer layer(wall, layout);
     for (unsigned int s = 0; s < wall.segments.size(); ++s)
       layer.lay(s);
     return layout;

@@ -20,7 +20,7 @@ namespace quoin
     WallUnit unit; /**< left and right along the segment */
     BoxGrid::Box box;
     unsigned int segment;
-    /** Boxes of one lintel, slab or platen have the same number. */
+    /** Boxes of one slab or platen have the same number. */
     unsigned int body;
     /** Axis of the normal of the potential crack through the middle; 3: none.
      */

@@ -255,6 +255,19 @@ TEST(SpaceWall, ACornerInterlocksCourseByCourse)
                                { "right_west", 2 * face } });
 }
 
+TEST(SpaceWall, ASlabLiesOnAllSegments)
+{
+  WallParameters wall  = two_segments(0., 0.);
+  wall.storeys[0].name = "low";
+  wall.storeys[0].slab = 0.1;
+  const MeshedSpaceWall made(wall);
+  const double plan = (1. + 0.75 - 0.125) * 0.125;
+  EXPECT_EQ(made.mesh.n_blocks(), 14 + 1u);
+  EXPECT_NEAR(made.joints.at("slab_joint"), plan, 1e-12);
+  EXPECT_NEAR(made.volume_of.at("slab_low"), 0.1 * plan, 1e-12);
+  EXPECT_NEAR(made.outside.at("slab_low_front_west"), 0.75 * 0.1, 1e-12);
+}
+
 TEST(SpaceWall, CrossWallsAndStraightJoints)
 {
   // A wall that ends in the other, at its front.
