@@ -6,6 +6,8 @@
 #include <quoin/layout/space_wall.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -21,8 +23,6 @@ namespace quoin
     {
       WallParameters plane = wall;
       plane.length         = segment.length;
-      if (segment.along == 1)
-        plane.begins_shifted = !plane.begins_shifted;
       for (std::size_t s = 0; s < plane.storeys.size(); ++s)
         plane.storeys[s].openings = segment.openings[s];
       return plane;
@@ -48,11 +48,56 @@ namespace quoin
       return result;
     }
 
+    /** Distances of the ends of @p junctions from the next head joint of the
+        bond, in a course that is @p shifted or not; their sum [m]. */
+    double overlap(const WallParameters &wall, const WallSegment &segment,
+                   const std::vector<std::array<double, 2>> &junctions,
+                   const bool shifted)
+    {
+      WallParameters course = wall;
+      course.length         = segment.length;
+      course.begins_shifted = shifted;
+      course.storeys.assign(1, WallStorey());
+      course.storeys[0].n_courses = 1;
+      course.bottom_platen        = 0.;
+      const WallLayout layout     = lay_wall(course);
+      double sum                  = 0.;
+      for (const auto &junction : junctions)
+        for (const double end : junction)
+        {
+          if (end <= 0. || end >= segment.length)
+            continue;
+          double least = wall.unit_length;
+          for (const WallUnit &unit : layout.units)
+            least = std::min(least, std::abs(unit.right - end));
+          sum += least;
+        }
+      return sum;
+    }
+
+    /** Whether segments along @p axis give way to others in their shifted
+        courses: their head joints in the other ones are the farther from the
+        ends that they have there. */
+    bool yields_shifted(const WallParameters &wall, const unsigned int axis)
+    {
+      double others = 0., shifted = 0.;
+      for (const WallSegment &segment : wall.segments)
+      {
+        if (segment.along != axis)
+          continue;
+        const auto ends = junctions(wall, segment);
+        others += overlap(wall, segment, ends, false);
+        shifted += overlap(wall, segment, ends, true);
+      }
+      return shifted <= others + 1e-9 * wall.unit_length;
+    }
+
     class Bricklayer
     {
     public:
       Bricklayer(const WallParameters &wall, SpaceWall &layout)
-        : wall(wall), layout(layout)
+        : wall(wall), layout(layout), yields{ { yields_shifted(wall, 0),
+                                                yields_shifted(wall, 1) } }
       {
       }
 
@@ -66,6 +111,8 @@ namespace quoin
 
       const WallParameters &wall;
       SpaceWall &layout;
+      /** By axis: whether segments give way in their shifted courses. */
+      const std::array<bool, 2> yields;
       unsigned int n_bodies = 0;
       std::map<unsigned int, unsigned int> layers; /**< bodies by row */
     };
@@ -110,8 +157,11 @@ namespace quoin
     void Bricklayer::lay(const unsigned int s)
     {
       const WallSegment &segment = wall.segments[s];
-      const WallParameters plane = plane_wall(wall, segment);
-      WallRun run                = { junctions(wall, segment), 0. };
+      WallParameters plane       = plane_wall(wall, segment);
+      // Segments along y run through where those along x do not.
+      if (segment.along == 1 && yields[0] == yields[1])
+        plane.begins_shifted = !plane.begins_shifted;
+      WallRun run = { junctions(wall, segment), yields[segment.along], 0. };
       for (unsigned int wythe = 0; wythe < wall.n_wythes; ++wythe)
       {
         run.shift               = wythe % 2 == 0 ? 0. : wall.wythe_offset;

@@ -189,7 +189,7 @@ namespace quoin
                                             const unsigned int course)
     {
       std::vector<Interruption> result;
-      if (is_shifted(wall, course))
+      if (is_shifted(wall, course) == run.yields_shifted)
         for (const auto &[left, right] : run.junctions)
           result.push_back({ { left, right }, Interruption::wall });
       for (const WallOpening &opening : storey.openings)

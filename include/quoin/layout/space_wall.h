@@ -37,9 +37,10 @@ namespace quoin
 
   /**
    * Lays the units of all segments and wythes by lay_wall(). Where segments
-   * share a square of the plan, those along x have it in the courses that are
-   * not shifted, those along y in the others: their bond is shifted where that
-   * along x is not. Throws InputError as lay_wall().
+   * share a square of the plan, those along x have it in every other course,
+   * those along y in the others. These are shifted ones or not, by which the
+   * head joints of one course are farther from the ends that segments have in
+   * the next one. Throws InputError as lay_wall().
    */
   SpaceWall lay_space_wall(const WallParameters &wall);
 

@@ -60,9 +60,10 @@ namespace quoin
   /** What another wall and another wythe change in the bond of one wythe. */
   struct WallRun
   {
-    /** Left and right ends of the squares that the wall shares with others [m],
-        which have them in its shifted courses. */
+    /** Left and right ends of the squares that the wall shares with others
+        [m], which have them in every other course. */
     std::vector<std::array<double, 2>> junctions;
+    bool yields_shifted = true; /**< whether these are its shifted courses */
     double shift = 0.; /**< of running and stack bond, of unit_length [-] */
   };
 

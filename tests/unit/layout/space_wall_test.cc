@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 using namespace quoin;
 
@@ -253,6 +254,36 @@ TEST(SpaceWall, ACornerInterlocksCourseByCourse)
                                { "back_west", 0.625 * 0.2 },
                                { "right_south", 2 * face },
                                { "right_west", 2 * face } });
+}
+
+TEST(SpaceWall, ACornerAsThickAsAUnitIsLongInterlocks)
+{
+  WallParameters wall = two_segments(0., 0.);
+  wall.thickness      = 0.25;
+  wall.n_wythes       = 2;
+  const MeshedSpaceWall made(wall);
+  // South has no joint at 0.25 m where it runs through, in the second course:
+  // 3 units and 4 of the west, then 5 and 2, each in two wythes.
+  EXPECT_EQ(made.mesh.n_blocks(), 2 * (3 + 4 + 5 + 2u));
+  expect_areas(made.joints,
+               { { "bed", 0.25 * 1.5 },
+                 { "head", ((2 + 1 + 3) + (4 + 1 + 1)) * 0.25 * 0.1 },
+                 { "collar", ((0.75 + 0.75) + (1. + 0.5)) * 0.1 } });
+  for (const WallBond bond : { WallBond::running, WallBond::header,
+                               WallBond::english, WallBond::flemish })
+  {
+    // In one course, and in no other, a unit lies across the end that the
+    // segment has in the next.
+    wall.bond = bond;
+    for (const unsigned int s : { 0u, 1u })
+    {
+      std::set<unsigned int> rows;
+      for (const WallBox &box : lay_space_wall(wall).boxes)
+        if (box.segment == s && box.unit.left < 0.24 && box.unit.right > 0.26)
+          rows.insert(box.unit.row);
+      EXPECT_EQ(rows, std::set<unsigned int>{ 1 - s });
+    }
+  }
 }
 
 TEST(SpaceWall, ASlabLiesOnAllSegments)
