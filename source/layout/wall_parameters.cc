@@ -146,6 +146,22 @@ namespace quoin
         section->fail("Joint thickness", "must not be negative.");
     }
 
+    void enter_thickness(ParameterEntries &entries, WallParameters &wall)
+    {
+      entries.nonnegative(
+          "Thickness", wall.thickness,
+          "Thickness of the wall, with its collar joints, in three dimensions, "
+          "which 'Dimension = 3' in section 'Mesh' makes; 0: the wall is plane "
+          "[m]");
+      entries.integer("Wythes", wall.n_wythes, 1,
+                      "Number of wythes of equal thickness, between which "
+                      "there are joints 'collar' [-]");
+      entries.within("Wythe offset", wall.wythe_offset, 0., 1.,
+                     "Offset of the head joints of every other wythe of a "
+                     "running or stack bond, as a fraction of the length of a "
+                     "unit with its joint [-]");
+    }
+
     void enter(ParameterEntries &entries, WallParameters &wall)
     {
       entries.choice(
@@ -195,20 +211,11 @@ namespace quoin
           "three quarters of a whole one, and headers in three dimensions, "
           "have a joint at mid-length, 'crack'; none: units have no such "
           "joint.");
-      entries.nonnegative(
-          "Thickness", wall.thickness,
-          "Thickness of the wall in three dimensions, which 'Dimension = 3' in "
-          "section 'Mesh' makes; 0: the wall is plane [m]");
-      entries.integer("Wythes", wall.n_wythes, 1,
-                      "Number of wythes of equal thickness, between which "
-                      "there are joints 'collar' [-]");
-      entries.within("Wythe offset", wall.wythe_offset, 0., 1.,
-                     "Offset of the head joints of every other wythe of a "
-                     "running or stack bond, as a fraction of the length of a "
-                     "unit with its joint [-]");
+      enter_thickness(entries, wall);
       entries.nonnegative("Element size", wall.element_size,
-                          "Longest edge of the elements of the wall; 0: half "
-                          "the height of a course [m]");
+                          "Longest edge of the elements of the wall, or of the "
+                          "bricks that are cut into tetrahedra; 0: half the "
+                          "height of a course [m]");
       entries.choice("Elements", wall.structured,
                      { { "structured", true }, { "free", false } },
                      "Mesh of the wall. structured: rectangles or, in three "
