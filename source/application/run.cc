@@ -35,7 +35,7 @@ namespace quoin
       {
         maker    = made.name;
         maker[0] = std::toupper(maker[0]);
-        if (parameters.dimension == MeshDimension::three)
+        if (parameters.dimension == MeshDimension::three && !made.is_mesh)
           maker += " box";
         maker = "section " + maker;
       }

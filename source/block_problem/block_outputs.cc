@@ -150,10 +150,11 @@ namespace quoin
     if (made.geometry.empty())
       return;
     const std::string begin = run.output + "/" + made.name;
-    write_text(begin + ".geo", made.geometry);
+    write_text(begin + (made.is_mesh ? ".msh" : ".geo"), made.geometry);
     if (!made.statistics.empty())
       write_text(begin + "_statistics.csv", made.statistics);
-    write_gmsh_mesh(begin + ".geo", begin + ".msh", system.parameters.cells);
+    if (!made.is_mesh)
+      write_gmsh_mesh(begin + ".geo", begin + ".msh", system.parameters.cells);
   }
 
   template <int dim>

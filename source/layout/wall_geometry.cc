@@ -11,6 +11,8 @@
 #include <set>
 #include <sstream>
 
+#include "wall_names.h"
+
 namespace quoin
 {
   namespace
@@ -24,58 +26,6 @@ namespace quoin
       double left;
       double right;
     };
-
-    /** @p kind or kind_NAME. */
-    std::string with_name(const std::string &kind, const std::string &name)
-    {
-      return name.empty() ? kind : kind + "_" + name;
-    }
-
-    std::string surface_name(const WallUnit &unit)
-    {
-      switch (unit.kind)
-      {
-      case WallUnit::lintel:
-        return with_name("lintel", unit.part);
-      case WallUnit::slab:
-        return with_name("slab", unit.part);
-      case WallUnit::bottom_platen:
-        return "bottom_platen";
-      case WallUnit::top_platen:
-        return "top_platen";
-      case WallUnit::unit:
-        break;
-      }
-      return with_name("unit", unit.part);
-    }
-
-    bool is_platen(const WallUnit &unit)
-    {
-      return unit.kind == WallUnit::bottom_platen
-             || unit.kind == WallUnit::top_platen;
-    }
-
-    /** Joint between a unit and the one above or beside it; @p kind: that of
-        two units of the bond, which has the name of the @p second one, and of
-        lintels of a storey without a name. Empty between the courses of a
-        lintel. */
-    std::string joint_name(const WallUnit &first, const WallUnit &second,
-                           const std::string &kind)
-    {
-      if (is_platen(first) || is_platen(second))
-        return "platen_joint";
-      if (first.kind == WallUnit::slab || second.kind == WallUnit::slab)
-        return "slab_joint";
-      const bool second_is = second.kind == WallUnit::lintel;
-      const bool first_is  = first.kind == WallUnit::lintel;
-      if (first_is && second_is && first.left == second.left
-          && first.right == second.right)
-        return "";
-      if ((first_is && !first.part.empty())
-          || (second_is && !second.part.empty()))
-        return "lintel_joint";
-      return with_name(kind, second.part);
-    }
 
     std::string length_text(const double length)
     {

@@ -22,32 +22,51 @@ namespace quoin
       double right;
     };
 
+    /** Whether @p course, counted from 0, begins with a cut unit or header. */
+    bool is_shifted(const WallParameters &wall, const unsigned int course)
+    {
+      return (course % 2 == 1) != wall.begins_shifted;
+    }
+
+    /** Whether all units of @p course, counted from 0, are headers. */
+    bool is_header_course(const WallParameters &wall, const WallStorey &storey,
+                          const unsigned int course)
+    {
+      return wall.bond == WallBond::header
+             || (wall.bond == WallBond::english && is_shifted(wall, course))
+             || storey.header_courses.count(course + 1) > 0;
+    }
+
     /** Head joints of every course as the bond alone has them. */
     class Bond
     {
     public:
-      explicit Bond(const WallParameters &wall)
-        : wall(wall), generator(wall.random_seed)
+      Bond(const WallParameters &wall, const double shift)
+        : wall(wall), shift(shift), generator(wall.random_seed)
       {
       }
 
-      /** Positions in (0, length), ascending. @p below: those one below. */
-      std::vector<double> joints(const unsigned int course,
+      /** Positions in (0, length), ascending, of a course of @p headers or of
+          the bond. @p below: those one below. */
+      std::vector<double> joints(const unsigned int course, const bool headers,
                                  const std::vector<double> &below)
       {
-        const bool shifted = (course % 2 == 1) != wall.begins_shifted;
+        const bool shifted = is_shifted(wall, course);
         const double L     = wall.unit_length;
+        if (headers && wall.bond != WallBond::header)
+          return periodic({ 0.5 * L, 0.75 * L }, { 0.5 * L });
         switch (wall.bond)
         {
         case WallBond::running:
-          return periodic({ shifted ? wall.offset * L : 0. }, { L });
+          return periodic(
+              { std::fmod((shifted ? wall.offset : 0.) + shift, 1.) * L },
+              { L });
         case WallBond::stack:
-          return periodic({ 0. }, { L });
+          return periodic({ shift * L }, { L });
         case WallBond::header:
           return periodic({ shifted ? 0.25 * L : 0. }, { 0.5 * L });
         case WallBond::english:
-          return shifted ? periodic({ 0.5 * L, 0.75 * L }, { 0.5 * L })
-                         : periodic({ 0. }, { L });
+          return periodic({ 0. }, { L });
         case WallBond::flemish:
           return shifted ? periodic({ 0.5 * L, 0.75 * L }, { L, 0.5 * L })
                          : periodic({ 0. }, { L, 0.5 * L });
@@ -125,14 +144,20 @@ namespace quoin
       }
 
       const WallParameters &wall;
+      const double shift; /**< of unit_length */
       std::mt19937_64 generator;
     };
 
-    /** Openings and lintels of a course as what interrupts the bond. */
+    /** Openings, lintels and other walls as what interrupts the bond. */
     struct Interruption
     {
       Stretch where;
-      bool lintel;
+      enum
+      {
+        opening,
+        lintel,
+        wall
+      } kind;
     };
 
     std::string in_course(const WallStorey &storey, const unsigned int course)
@@ -141,31 +166,49 @@ namespace quoin
              + (storey.name.empty() ? "" : " of storey '" + storey.name + "'");
     }
 
+    void check_interruptions(const std::vector<Interruption> &all,
+                             const WallStorey &storey,
+                             const unsigned int course)
+    {
+      for (std::size_t i = 1; i < all.size(); ++i)
+        if (all[i].where.left < all[i - 1].where.right)
+        {
+          const bool at_wall = all[i].kind == Interruption::wall
+                               || all[i - 1].kind == Interruption::wall;
+          throw InputError(
+              "section 'Wall': " + in_course(storey, course) + " a lintel "
+              + (at_wall ? "reaches into the wall that ends or crosses there"
+                         : "meets an opening or another lintel")
+              + ". Lower 'Lintel bearing' or move the openings.");
+        }
+    }
+
     std::vector<Interruption> interruptions(const WallParameters &wall,
+                                            const WallRun &run,
                                             const WallStorey &storey,
                                             const unsigned int course)
     {
       std::vector<Interruption> result;
+      if (is_shifted(wall, course) == run.yields_shifted)
+        for (const auto &[left, right] : run.junctions)
+          result.push_back({ { left, right }, Interruption::wall });
       for (const WallOpening &opening : storey.openings)
       {
         if (opening.first_course <= course + 1
             && course + 1 <= opening.last_course)
-          result.push_back({ { opening.left, opening.right }, false });
+          result.push_back(
+              { { opening.left, opening.right }, Interruption::opening });
         if (wall.lintel_bearing > 0. && course >= opening.last_course
             && course < opening.last_course + wall.lintel_courses)
           result.push_back(
               { { std::max(0., opening.left - wall.lintel_bearing),
                   std::min(wall.length, opening.right + wall.lintel_bearing) },
-                true });
+                Interruption::lintel });
       }
       std::sort(result.begin(), result.end(),
                 [](const Interruption &a, const Interruption &b)
                 { return a.where.left < b.where.left; });
-      for (std::size_t i = 1; i < result.size(); ++i)
-        if (result[i].where.left < result[i - 1].where.right)
-          throw InputError("section 'Wall': " + in_course(storey, course)
-                           + " a lintel meets an opening or another lintel. "
-                             "Lower 'Lintel bearing' or move the openings.");
+      check_interruptions(result, storey, course);
       return result;
     }
 
@@ -186,10 +229,12 @@ namespace quoin
                 "opening.");
     }
 
-    /** Appends the units of @p stretch, cut at @p joints. */
+    /** Appends the units of @p stretch, cut at @p joints: @p headers, or those
+        of the bond. */
     void lay_units(const WallParameters &wall, const Stretch &stretch,
-                   const std::vector<double> &joints, const std::string &name,
-                   const unsigned int row, WallLayout &layout)
+                   const std::vector<double> &joints, const bool headers,
+                   const std::string &name, const unsigned int row,
+                   WallLayout &layout)
     {
       const double exact = coincident * wall.unit_length;
       if (stretch.right - stretch.left <= exact)
@@ -201,8 +246,12 @@ namespace quoin
       {
         const bool cracks
             = wall.cracks && right - left > 0.75 * wall.unit_length;
+        const bool through
+            = headers
+              || (wall.bond == WallBond::flemish
+                  && right - left < (0.5 + coincident) * wall.unit_length);
         layout.units.push_back(
-            { WallUnit::unit, row, left, right, cracks, name });
+            { WallUnit::unit, row, left, right, cracks, name, through });
         left = right;
       };
       for (const double x : joints)
@@ -217,22 +266,25 @@ namespace quoin
       place(stretch.right);
     }
 
-    void lay_course(const WallParameters &wall, const WallStorey &storey,
-                    const unsigned int course,
+    void lay_course(const WallParameters &wall, const WallRun &run,
+                    const WallStorey &storey, const unsigned int course,
                     const std::vector<double> &joints, WallLayout &layout)
     {
       const unsigned int row  = layout.levels.size();
       const std::string &name = storey.course_name(course + 1);
+      const bool headers      = is_header_course(wall, storey, course);
       double left             = 0.;
-      for (const Interruption &gap : interruptions(wall, storey, course))
+      for (const Interruption &gap : interruptions(wall, run, storey, course))
       {
-        lay_units(wall, { left, gap.where.left }, joints, name, row, layout);
-        if (gap.lintel)
+        lay_units(wall, { left, gap.where.left }, joints, headers, name, row,
+                  layout);
+        if (gap.kind == Interruption::lintel)
           layout.units.push_back({ WallUnit::lintel, row, gap.where.left,
                                    gap.where.right, false, storey.name });
         left = gap.where.right;
       }
-      lay_units(wall, { left, wall.length }, joints, name, row, layout);
+      lay_units(wall, { left, wall.length }, joints, headers, name, row,
+                layout);
     }
 
     std::string storey_line(const WallStorey &storey, const double bottom,
@@ -248,7 +300,7 @@ namespace quoin
     }
   } // namespace
 
-  WallLayout lay_wall(const WallParameters &wall)
+  WallLayout lay_wall(const WallParameters &wall, const WallRun &run)
   {
     WallLayout layout;
     layout.length = wall.length;
@@ -267,7 +319,7 @@ namespace quoin
     };
 
     add_layer(WallUnit::bottom_platen, wall.bottom_platen, "");
-    Bond bond(wall);
+    Bond bond(wall, run.shift);
     y = 0.;
     for (const WallStorey &storey : wall.storeys)
     {
@@ -276,8 +328,9 @@ namespace quoin
       std::vector<double> joints;
       for (unsigned int course = 0; course < storey.n_courses; ++course)
       {
-        joints = bond.joints(course, joints);
-        lay_course(wall, storey, course, joints, layout);
+        joints = bond.joints(course, is_header_course(wall, storey, course),
+                             joints);
+        lay_course(wall, run, storey, course, joints, layout);
         layout.levels.push_back(y);
         y = bottom + (course + 1) * wall.unit_height;
       }

@@ -2,13 +2,14 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/parameter_entries.h>
+#include <quoin/layout/element_limit.h>
 #include <quoin/layout/wall_parameters.h>
 
 #include <array>
 #include <cmath>
 
-#include <quoin/layout/element_limit.h>
 #include "numbered_names.h"
+#include "wall_sections.h"
 
 namespace quoin
 {
@@ -17,34 +18,21 @@ namespace quoin
     /** More do not fit into the memory of a machine. */
     constexpr double most_units = 1e6;
 
-    std::vector<WallOpening> read_openings(const ParameterSection &section,
-                                           const WallStorey &storey)
+    std::set<unsigned int> read_courses(const ParameterSection &section,
+                                        const WallStorey &storey)
     {
-      std::vector<WallOpening> openings;
-      for (const auto &v :
-           number_rows(section, "Openings", 4,
-                       "must be four numbers for each opening: left, right, "
-                       "first course, last course; openings are separated by "
-                       "semicolons."))
+      std::set<unsigned int> courses;
+      for (const std::string &word : section.list("Header courses"))
       {
-        if (!(0. <= v[0] && v[0] < v[1]))
-          section.fail("Openings", "must have 0 <= left < right <= 'Length'.");
-        const double first = v[2], last = v[3];
-        if (first != std::floor(first) || last != std::floor(last)
-            || !(1. <= first && first <= last && last <= storey.n_courses))
-          section.fail("Openings", "must name whole courses with 1 <= first "
-                                   "<= last <= 'Courses'.");
-        openings.push_back({ v[0], v[1], static_cast<unsigned int>(first),
-                             static_cast<unsigned int>(last) });
+        const auto [first, last] = number_range(word);
+        if (first < 1 || last < first || last > storey.n_courses)
+          section.fail("Header courses",
+                       "must be numbers of courses from 1 to 'Courses', or "
+                       "FIRST-LAST of several, such as 6, 12-13.");
+        for (unsigned int course = first; course <= last; ++course)
+          courses.insert(course);
       }
-      for (std::size_t i = 0; i < openings.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-          if (openings[i].left <= openings[j].right
-              && openings[j].left <= openings[i].right
-              && openings[i].first_course <= openings[j].last_course
-              && openings[j].first_course <= openings[i].last_course)
-            section.fail("Openings", "must not touch each other.");
-      return openings;
+      return courses;
     }
 
     constexpr const char *course_form
@@ -53,10 +41,16 @@ namespace quoin
           "most once, such as plinth:1-2, band:9.";
 
     void check_openings(const ParameterSection &section,
-                        const WallStorey &storey, const double length)
+                        const WallStorey &storey, const WallParameters &wall)
     {
+      const bool has_segments
+          = !wall.segments.empty() && !wall.segments[0].name.empty();
+      if (has_segments && !storey.openings.empty())
+        section.fail("Openings", "does not go with section 'Wall segments', "
+                                 "whose segments have openings of their own: "
+                                 "leave it empty.");
       for (const WallOpening &opening : storey.openings)
-        if (opening.right > length)
+        if (!has_segments && opening.right > wall.length)
           section.fail("Openings", "must have 0 <= left < right <= 'Length'.");
     }
 
@@ -70,8 +64,10 @@ namespace quoin
                     "course, with semicolons between openings. x is 0 at the "
                     "left end, and courses count from 1 at the bottom of the "
                     "wall or storey. Units are cut to fit.",
-                    [&](const ParameterSection &section)
-                    { storey.openings = read_openings(section, storey); });
+                    [&](const ParameterSection &section) {
+                      storey.openings
+                          = read_openings(section, storey.n_courses);
+                    });
       std::vector<std::pair<std::string, std::string>> names;
       entries.pairs(
           "Named courses", names, course_form,
@@ -79,6 +75,12 @@ namespace quoin
           "units are the physical surface 'unit_NAME', the joints below the "
           "course 'bed_NAME', its head joints 'head_NAME' and its potential "
           "cracks 'crack_NAME'. Other courses have the name of their storey.");
+      entries.other(
+          "Header courses", "",
+          "Courses of headers in a bond that has others, such as 6, 12-13: "
+          "half units, which go through the wall in three dimensions.",
+          [&](const ParameterSection &section)
+          { storey.header_courses = read_courses(section, storey); });
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;
@@ -120,8 +122,10 @@ namespace quoin
     /** Lengths of units in the parameters are those without mortar. */
     void enter_units(ParameterEntries &entries, WallParameters &wall)
     {
-      entries.positive("Length", wall.length,
-                       "Length of the wall from its left to its right end [m]");
+      entries.nonnegative(
+          "Length", wall.length,
+          "Length of the wall from its left to its right end; 0 if there are "
+          "segments, which have lengths of their own [m]");
       wall.storeys.resize(1);
       enter_storey(entries, wall.storeys[0]);
       entries.positive("Unit length", wall.unit_length,
@@ -140,6 +144,22 @@ namespace quoin
         return;
       if (!(joint[0] >= 0. && joint[1] >= 0.))
         section->fail("Joint thickness", "must not be negative.");
+    }
+
+    void enter_thickness(ParameterEntries &entries, WallParameters &wall)
+    {
+      entries.nonnegative(
+          "Thickness", wall.thickness,
+          "Thickness of the wall, with its collar joints, in three dimensions, "
+          "which 'Dimension = 3' in section 'Mesh' makes; 0: the wall is plane "
+          "[m]");
+      entries.integer("Wythes", wall.n_wythes, 1,
+                      "Number of wythes of equal thickness, between which "
+                      "there are joints 'collar' [-]");
+      entries.within("Wythe offset", wall.wythe_offset, 0., 1.,
+                     "Offset of the head joints of every other wythe of a "
+                     "running or stack bond, as a fraction of the length of a "
+                     "unit with its joint [-]");
     }
 
     void enter(ParameterEntries &entries, WallParameters &wall)
@@ -188,16 +208,21 @@ namespace quoin
           "Potential cracks", wall.cracks,
           { { "none", false }, { "mid-unit", true } },
           "Potential cracks through units. mid-unit: all units longer than "
-          "three quarters of a whole one have a joint at mid-length, on the "
-          "curve 'crack'; none: units have no such joint.");
+          "three quarters of a whole one, and headers in three dimensions, "
+          "have a joint at mid-length, 'crack'; none: units have no such "
+          "joint.");
+      enter_thickness(entries, wall);
       entries.nonnegative("Element size", wall.element_size,
-                          "Longest edge of the elements of the wall; 0: half "
-                          "the height of a course [m]");
+                          "Longest edge of the elements of the wall, or of the "
+                          "bricks that are cut into tetrahedra; 0: half the "
+                          "height of a course [m]");
       entries.choice("Elements", wall.structured,
                      { { "structured", true }, { "free", false } },
-                     "Mesh of the wall. structured: rectangles between all "
-                     "head joints and cracks of the wall, divided alternately; "
-                     "free: gmsh's unstructured mesh of each unit.");
+                     "Mesh of the wall. structured: rectangles or, in three "
+                     "dimensions, boxes between all joints and cracks of the "
+                     "wall, divided alternately; "
+                     "free: gmsh's unstructured mesh of each unit of a plane "
+                     "wall.");
     }
 
     /** The storeys of section 'Wall storeys' take the place of the one that
@@ -210,12 +235,31 @@ namespace quoin
       {
         const ParameterSection part(section, name);
         WallStorey storey = read_entries(part, enter_upper_storey);
-        check_openings(part, storey, wall.length);
+        check_openings(part, storey, wall);
         storey.name = name;
         storeys.push_back(storey);
       }
       if (!storeys.empty())
         wall.storeys = storeys;
+    }
+
+    void check_wall(const ParameterSection &section, const WallParameters &wall,
+                    const unsigned int n_courses)
+    {
+      const bool has_storeys = !wall.storeys[0].name.empty();
+      if (has_storeys && n_courses > 0)
+        section.fail("Courses", "does not go with section 'Wall storeys', "
+                                "whose storeys have courses of their own: "
+                                "leave it at 0.");
+      if (!(wall.length > 0.))
+        section.fail("Length", "must be positive.");
+      if (!has_storeys)
+      {
+        if (n_courses == 0)
+          section.fail("Courses", "must be at least 1, or section 'Wall "
+                                  "storeys' must name storeys.");
+        check_openings(section, wall.storeys[0], wall);
+      }
     }
 
     void check_numbers_of_units(const ParameterSection &section,
@@ -251,13 +295,46 @@ namespace quoin
     {
       if (wall.element_size == 0.)
         wall.element_size = 0.5 * wall.unit_height;
-      limit_elements(section, 2. * wall.length / wall.element_size
-                                  * wall.height() / wall.element_size);
+      const double n
+          = wall.length / wall.element_size * wall.height() / wall.element_size;
+      limit_elements(section, wall.segments.empty() ? 2. * n
+                                                    : 5. * n * wall.thickness
+                                                          / wall.element_size);
       if (wall.structured && wall.bond == WallBond::random)
         section.fail("Elements", "must be 'free' with 'Bond = random', whose "
                                  "joints lie at any distance.");
     }
   } // namespace
+
+  std::vector<WallOpening> read_openings(const ParameterSection &section,
+                                         const unsigned int n_courses)
+  {
+    std::vector<WallOpening> openings;
+    for (const auto &v :
+         number_rows(section, "Openings", 4,
+                     "must be four numbers for each opening: left, right, "
+                     "first course, last course; openings are separated by "
+                     "semicolons."))
+    {
+      if (!(0. <= v[0] && v[0] < v[1]))
+        section.fail("Openings", "must have 0 <= left < right <= 'Length'.");
+      const double first = v[2], last = v[3];
+      if (first != std::floor(first) || last != std::floor(last)
+          || !(1. <= first && first <= last && last <= n_courses))
+        section.fail("Openings", "must name whole courses with 1 <= first "
+                                 "<= last <= 'Courses'.");
+      openings.push_back({ v[0], v[1], static_cast<unsigned int>(first),
+                           static_cast<unsigned int>(last) });
+    }
+    for (std::size_t i = 0; i < openings.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (openings[i].left <= openings[j].right
+            && openings[j].left <= openings[i].right
+            && openings[i].first_course <= openings[j].last_course
+            && openings[j].first_course <= openings[i].last_course)
+          section.fail("Openings", "must not touch each other.");
+    return openings;
+  }
 
   void WallStorey::declare(dealii::ParameterHandler &prm)
   {
@@ -275,22 +352,15 @@ namespace quoin
     if (wall.bond == WallBond::none)
       return wall;
     const unsigned int n_courses = wall.storeys[0].n_courses;
+    read_segments(top, wall);
     read_storeys(top, wall);
-    const ParameterSection section(top, "Wall");
-    const bool has_storeys = !wall.storeys[0].name.empty();
-    if (has_storeys && n_courses > 0)
-      section.fail("Courses", "does not go with section 'Wall storeys', whose "
-                              "storeys have courses of their own: leave it at "
-                              "0.");
-    if (!has_storeys)
     {
-      if (n_courses == 0)
-        section.fail("Courses", "must be at least 1, or section 'Wall "
-                                "storeys' must name storeys.");
-      check_openings(section, wall.storeys[0], wall.length);
+      const ParameterSection section(top, "Wall");
+      check_wall(section, wall, n_courses);
+      check_numbers_of_units(section, wall);
+      check_elements(section, wall);
     }
-    check_numbers_of_units(section, wall);
-    check_elements(section, wall);
+    check_segments(top, wall);
     return wall;
   }
 

@@ -5,9 +5,10 @@
 #include <quoin/base/parameter_entries.h>
 #include <quoin/layout/arch_layout.h>
 #include <quoin/layout/block_surfaces.h>
+#include <quoin/layout/space_wall.h>
+#include <quoin/layout/wall_layout.h>
 #include <quoin/rock/rock_box.h>
 #include <quoin/rock/rock_layout.h>
-#include <quoin/layout/wall_layout.h>
 #include <quoin/parameters/model_parameters.h>
 
 #include <filesystem>
@@ -20,8 +21,23 @@ namespace quoin
     /** A mesh with a million times as many cells as the file's is a mistake. */
     constexpr int most_refinements = 10;
 
+    void lay_in_space(const WallParameters &wall, Parameters &parameters)
+    {
+      const SpaceWall layout  = lay_space_wall(wall);
+      const GmshGeometry mesh = space_wall_mesh(wall, layout);
+      parameters.generated
+          = { "wall", mesh.text, space_wall_report(wall, layout), "", "" };
+      parameters.generated.is_mesh  = true;
+      parameters.split.joints_along = mesh.joint_curves;
+    }
+
     void lay(const WallParameters &wall, Parameters &parameters)
     {
+      if (!wall.segments.empty())
+      {
+        lay_in_space(wall, parameters);
+        return;
+      }
       const WallLayout layout     = lay_wall(wall);
       const GmshGeometry geometry = wall_geometry(wall, layout);
       parameters.generated
@@ -170,9 +186,8 @@ namespace quoin
     {
       if (made == MeshDimension::two && wanted == MeshDimension::three)
         section.fail("Dimension",
-                     "is 2 for a wall of section 'Wall', an arch of section "
-                     "'Arch' or rock of section 'Rock', whose meshes are "
-                     "plane: set 'from mesh'.");
+                     "is 2 for an arch of section 'Arch' or rock of section "
+                     "'Rock', whose meshes are plane: set 'from mesh'.");
       if (made == MeshDimension::three && wanted == MeshDimension::two)
         section.fail("Dimension",
                      "must be 3 for rock of section 'Rock box', whose "
@@ -199,7 +214,8 @@ namespace quoin
                        { "3", MeshDimension::three } },
                      "Dimension of the model. from mesh: three if the file has "
                      "tetrahedra or a geometry has volumes, otherwise two; 2: "
-                     "the triangles in the plane z = 0; 3: the tetrahedra.");
+                     "the triangles in the plane z = 0; 3: the tetrahedra, "
+                     "which a wall of section 'Wall' then has, too.");
       entries.choice(
           "Triangles", parameters.cells.kind,
           { { "plain", TriangleKind::plain },
@@ -248,8 +264,9 @@ namespace quoin
 
   void read_mesh(const ParameterSection &top, Parameters &parameters)
   {
-    const bool generated = read_generated(top, parameters);
-    const bool has_box   = RockBoxParameters::read(top).is_there();
+    const bool generated      = read_generated(top, parameters);
+    const bool has_tetrahedra = parameters.generated.is_mesh
+                                || RockBoxParameters::read(top).is_there();
     const auto joints_of_layout
         = std::exchange(parameters.split.joints_along, {});
     const ParameterSection section(top, "Mesh");
@@ -269,9 +286,9 @@ namespace quoin
     else if (parameters.split.joints_along.empty())
       parameters.split.joints_along = joints_of_layout;
     if (generated)
-      check_dimension(section,
-                      has_box ? MeshDimension::three : MeshDimension::two,
-                      parameters.dimension);
+      check_dimension(
+          section, has_tetrahedra ? MeshDimension::three : MeshDimension::two,
+          parameters.dimension);
     if (parameters.cells.kind == TriangleKind::quadratic
         && !parameters.is_implicit)
       section.fail("Triangles",

@@ -24,6 +24,7 @@ namespace quoin
     /** Sections with named subsections, and functions that declare these. */
     const std::vector<SectionEntries> named_sections
         = { { "Wall storeys", WallStorey::declare },
+            { "Wall segments", WallSegment::declare },
             { "Rock regions", RockRegion::declare },
             { "Rock joints", RockJoints::declare },
             { "Rock joint sets", SpaceJointSet::declare },

@@ -200,6 +200,23 @@ def solvers_agree(case, prm, explicit, implicit):
         "explicit curve, missing": 1.0 - curves["share of the explicit curve"]}
 
 
+def plane_wall(case, folder, output, histories):
+    """The run in three dimensions in @p output against the plane wall of
+    plane.prm: stiffness of the first step of the push, and the force from then
+    on by the largest one."""
+    plane = os.path.join(output, "plane")
+    common.run(case["quoin"], os.path.join(folder, "plane.prm"), plane,
+               case.get("set", []))
+    reference, _ = common.read_table(os.path.join(plane, "histories.csv"))
+    pushed = reference["time"] > case["settled"] + 1e-9
+    wanted = reference["force"][pushed]
+    force = np.interp(reference["time"][pushed], histories["time"],
+                      histories["force"])
+    return {"stiffness": float(abs(force[0] / wanted[0] - 1)),
+            "force": float(np.max(np.abs(force - wanted))
+                           / np.max(np.abs(wanted)))}
+
+
 def note_solvers(case, numbers):
     """Notes what scripts/table shows of a wall by both solvers."""
     wanted = ("peak [kN]", "at [mm]", "wall time [s]")

@@ -7,6 +7,7 @@
 #include <quoin/layout/gmsh_geometry.h>
 #include <quoin/layout/wall_parameters.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ namespace quoin
     /** Name of the course of a unit, or of the storey of a lintel or slab; may
      * be empty. */
     std::string part;
+    /** Whether the unit is a header, as long as the wall is thick. */
+    bool through = false;
 
     double middle() const
     {
@@ -54,6 +57,16 @@ namespace quoin
     unsigned int n_joined = 0;
   };
 
+  /** What another wall and another wythe change in the bond of one wythe. */
+  struct WallRun
+  {
+    /** Left and right ends of the squares that the wall shares with others
+        [m], which have them in every other course. */
+    std::vector<std::array<double, 2>> junctions;
+    bool yields_shifted = true; /**< whether these are its shifted courses */
+    double shift = 0.; /**< of running and stack bond, of unit_length [-] */
+  };
+
   /**
    * Lays the units of a wall. In every course the bond gives head joints; it
    * begins anew with each storey, which a slab may end. Openings and lintels
@@ -61,9 +74,9 @@ namespace quoin
    * WallParameters::shortest at an end are left out.
    *
    * Throws InputError: a random bond that finds no place for a joint, a lintel
-   * that does not fit.
+   * that does not fit or reaches into another wall.
    */
-  WallLayout lay_wall(const WallParameters &wall);
+  WallLayout lay_wall(const WallParameters &wall, const WallRun &run = {});
 
   /** Line with the numbers of units, lintels, slabs and cracks, and a line for
       each storey with a name. */

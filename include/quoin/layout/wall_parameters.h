@@ -6,8 +6,12 @@
 
 #include <quoin/base/parameter_section.h>
 
+#include <deal.II/base/point.h>
+
+#include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +51,8 @@ namespace quoin
     double slab = 0.; /**< thickness of the slab above; 0: none [m] */
     /** Names of courses, counted from 1. */
     std::map<unsigned int, std::string> named_courses;
+    /** Courses of headers in another bond, counted from 1. */
+    std::set<unsigned int> header_courses = {};
 
     /** Name of course @p number, which is that of the storey if it has none. */
     const std::string &course_name(const unsigned int number) const
@@ -58,11 +64,30 @@ namespace quoin
     static void declare(dealii::ParameterHandler &prm);
   };
 
-  /** The sections 'Wall' and 'Wall storeys'. */
+  /**
+   * A straight part of a wall in three dimensions: a subsection of 'Wall
+   * segments', or, with an empty name, the whole wall of section 'Wall'.
+   * Segments that cross or end in each other share a square of the plan.
+   */
+  struct WallSegment
+  {
+    std::string name;
+    dealii::Point<2> start;  /**< corner of least x and y in plan [m] */
+    unsigned int along = 0;  /**< axis of its length: 0: x, 1: y */
+    double length      = 0.; /**< [m] */
+    /** Openings by storey, with courses counted in the storey. */
+    std::vector<std::vector<WallOpening>> openings;
+
+    static void declare(dealii::ParameterHandler &prm);
+    /** Corners of least and of largest x and y in plan [m]. */
+    std::array<dealii::Point<2>, 2> corners(double thickness) const;
+  };
+
+  /** The sections 'Wall', 'Wall storeys' and 'Wall segments'. */
   struct WallParameters
   {
     WallBond bond = WallBond::none;
-    double length = 0.; /**< [m] */
+    double length = 0.; /**< of all segments together [m] */
     /** Storeys from bottom to top, at least one. */
     std::vector<WallStorey> storeys;
 
@@ -94,8 +119,15 @@ namespace quoin
     double element_size = 0.; /**< longest edge, about [m] */
     bool structured     = true;
 
+    /** Straight parts in plan; none: the wall is plane. */
+    std::vector<WallSegment> segments;
+    double thickness      = 0.; /**< in three dimensions [m] */
+    unsigned int n_wythes = 1;
+    double wythe_offset   = 0.; /**< of every other wythe, of unit_length [-] */
+
     static void declare(dealii::ParameterHandler &prm);
-    /** Wall of the parameter file; storeys are read only if there is a wall. */
+    /** Wall of the parameter file; storeys are read only if there is a wall,
+        segments only if 'Mesh/Dimension' is 3. */
     static WallParameters read(const ParameterSection &top);
 
     double height() const; /**< height with slabs and platens [m] */

@@ -33,6 +33,7 @@ namespace quoin
     std::string statistics; /**< a table (CSV), or empty */
     /** How to leave out small pieces, which shorten the time step; or empty. */
     std::string cleaning;
+    bool is_mesh = false; /**< whether the text is that of a .msh file */
   };
 
   /** All values of a parameter file. */

@@ -112,6 +112,22 @@ TEST(WallLayout, LaysEveryBondAsMasonsDo)
   expect_joints(layout, 1, { 0.125, 0.1875, 0.4375, 0.5625, 0.8125, 0.9375 });
 }
 
+TEST(WallLayout, CoursesOfHeadersInAnotherBond)
+{
+  WallParameters wall            = small_wall(WallBond::running);
+  wall.storeys[0].n_courses      = 3;
+  wall.storeys[0].header_courses = { 2 };
+  const auto layout              = lay_wall(wall);
+  expect_joints(layout, 0, { 0.25, 0.5, 0.75 });
+  // As in English bond: header, queen closer, headers.
+  expect_joints(
+      layout, 1,
+      { 0.125, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375 });
+  expect_joints(layout, 2, { 0.25, 0.5, 0.75 });
+  for (const WallUnit &unit : layout.units)
+    EXPECT_EQ(unit.through, unit.row == 1);
+}
+
 TEST(WallLayout, TheFirstCourseMayBeTheShiftedOne)
 {
   WallParameters wall = small_wall(WallBond::running);
