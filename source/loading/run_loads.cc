@@ -87,8 +87,7 @@ namespace quoin
         break;
       }
     }
-    if constexpr (dim == 2)
-      add_free_fields(model, loads);
+    add_free_fields(model, loads);
   }
 
   template <>
@@ -103,9 +102,9 @@ namespace quoin
       constraints.push_back(std::move(static_field));
   }
 
-  template <>
-  void RunLoads<2>::add_free_fields(const Model<2> &model,
-                                    const std::vector<LoadParameters> &loads)
+  template <int dim>
+  void RunLoads<dim>::add_free_fields(const Model<dim> &model,
+                                      const std::vector<LoadParameters> &loads)
   {
     for (const LoadParameters &load : loads)
     {
@@ -129,7 +128,7 @@ namespace quoin
                            "but waves in the column beside the model are those "
                            "of one motion. Give the base a function of time "
                            "alone.");
-      constraints.push_back(std::make_unique<FreeFieldBoundary>(
+      constraints.push_back(std::make_unique<FreeFieldBoundary<dim>>(
           load, model.nodes(), free_field_ground(model),
           FreeFieldBase{ *base, impedance_beyond(model, *base) }));
     }
