@@ -351,10 +351,10 @@ namespace quoin
                           beside.velocity.data() + first);
       first += dim * side.ground.n_nodes();
       for (unsigned int i = 0; i < side.nodes.size(); ++i)
-        pull[side.nodes[i]]
-            += side.dashpots[i].drag(side.ground.velocity(side.beside[i]));
+        side.dashpots[i].add_drag(side.ground.velocity(side.beside[i]),
+                                  pull[side.nodes[i]]);
       for (const typename Side::Share &share : side.shares)
-        pull[share.node] += side.ground.force_on(share.part, share.area);
+        side.ground.add_force(share.part, share.area, pull[share.node]);
     }
     for (unsigned int i = 0; i < pull.size(); ++i)
       move_with_dashpot(step, captured[this->captured_positions[i]], damping[i],

@@ -162,13 +162,15 @@ namespace quoin
   }
 
   template <int dim>
-  dealii::Tensor<1, dim>
-  FreeFieldColumn<dim>::force_on(const unsigned int e,
-                                 const dealii::Tensor<1, dim> &area) const
+  void FreeFieldColumn<dim>::add_force(const unsigned int e,
+                                       const dealii::Tensor<1, dim> &area,
+                                       dealii::Tensor<1, dim> &total) const
   {
-    dealii::Tensor<1, dim> result = lateral[e] * area;
-    result[dim - 1]               = stress[e] * area;
-    return result;
+    for (unsigned int d = 0; d + 1 < dim; ++d)
+    {
+      total[d] += area[d] * lateral[e];
+      total[dim - 1] += area[d] * stress[e][d];
+    }
   }
 
   template struct FreeFieldFoot<2>;

@@ -279,11 +279,11 @@ namespace quoin
     std::fill(force.begin(), force.end(), Vector());
     add_stresses(step, u, v);
     for (const Share &share : shares)
-      force[share.node]
-          += columns[share.column].force_on(share.layer, share.area);
+      columns[share.column].add_force(share.layer, share.area,
+                                      force[share.node]);
     for (const Tie &tie : ties)
-      force[tie.node]
-          += tie.dashpot.drag(columns[tie.column].velocity(tie.column_node));
+      tie.dashpot.add_drag(columns[tie.column].velocity(tie.column_node),
+                           force[tie.node]);
 
     for (const auto &[node, support] : supports)
       for (unsigned int d = 0; d < 3; ++d)

@@ -115,10 +115,19 @@ namespace quoin
   }
 
   template <int dim>
-  dealii::Tensor<1, dim>
-  Dashpot<dim>::drag(const dealii::Tensor<1, dim> &v) const
+  void Dashpot<dim>::add_drag(const dealii::Tensor<1, dim> &v,
+                              dealii::Tensor<1, dim> &force) const
   {
-    return product<dim>(damping, v);
+    unsigned int k = dim;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      force[d] += damping[d] * v[d];
+      for (unsigned int e = d + 1; e < dim; ++e, ++k)
+      {
+        force[d] += damping[k] * v[e];
+        force[e] += damping[k] * v[d];
+      }
+    }
   }
 
   template <int dim>

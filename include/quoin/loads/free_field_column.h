@@ -113,10 +113,10 @@ namespace quoin
     void advance(const StepContext &step, const FreeFieldFoot<dim> &foot,
                  double *u, double *v);
     dealii::Tensor<1, dim> velocity(unsigned int node) const;
-    /** Force of layer @p e [N] on the vertical @p area with its outward normal
-        [m^2]. */
-    dealii::Tensor<1, dim> force_on(unsigned int e,
-                                    const dealii::Tensor<1, dim> &area) const;
+    /** Adds to @p total the force of layer @p e [N] on the vertical @p area
+        with its outward normal [m^2]. */
+    void add_force(unsigned int e, const dealii::Tensor<1, dim> &area,
+                   dealii::Tensor<1, dim> &total) const;
 
   private:
     void move_foot(const StepContext &step, const FreeFieldFoot<dim> &foot,

@@ -58,12 +58,12 @@ namespace quoin
     void advance(const StepContext &step, const FreeFieldFoot<3> &foot,
                  double *u, double *v);
     dealii::Tensor<1, 3> velocity(unsigned int node) const;
-    /** Force of the ground at face @p f [N] on the @p area with its outward
-        normal [m^2]. */
-    dealii::Tensor<1, 3> force_on(const unsigned int f,
-                                  const dealii::Tensor<1, 3> &area) const
+    /** Adds to @p total the force of the ground at face @p f [N] on the @p area
+        with its outward normal [m^2]. */
+    void add_force(const unsigned int f, const dealii::Tensor<1, 3> &area,
+                   dealii::Tensor<1, 3> &total) const
     {
-      return triangles[f].stress * area;
+      total += triangles[f].stress * area;
     }
 
   private:

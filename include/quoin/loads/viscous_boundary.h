@@ -48,8 +48,10 @@ namespace quoin
       return result;
     }
 
-    /** Resisting force of the velocity @p v [N]. */
-    dealii::Tensor<1, dim> drag(const dealii::Tensor<1, dim> &v) const;
+    /** Adds to @p force [N] that by which the velocity @p v [m/s] of the medium
+        beyond drags the node along. */
+    void add_drag(const dealii::Tensor<1, dim> &v,
+                  dealii::Tensor<1, dim> &force) const;
 
     /** Adds that of the area @p outward [m^2] with its normal, before a medium
         of the impedance @p z. */
