@@ -109,10 +109,10 @@ namespace quoin
         v = foot.velocity(d, step);
         continue;
       }
-      const double z    = foot.is_prescribed ? 0. : base_impedance[d];
-      const double drag = h * (z + step.mass_damping * m);
-      v                 = ((m - drag) * v
-           + 2. * h * (force[d] + 2. * z * foot.incident(d, step)))
+      const double z        = foot.is_prescribed ? 0. : base_impedance[d];
+      const double incident = foot.incident(d, step);
+      const double drag     = h * (z + step.mass_damping * m);
+      v = ((m - drag) * v + 2. * h * (force[d] + 2. * z * incident))
           / (m + drag);
     }
   }
