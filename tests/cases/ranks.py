@@ -134,6 +134,11 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                             "Joints/bed/Shear stiffness=1e11",
                             "Initial motion/Velocity=1e-3*exp(-(x*x+(y+8)^2));"
                             " 0"]),
+            # grids in each rank beside a block in several ones
+            "space, free field": (os.path.join(
+                common.VERIFICATION, "space_free_field_sides", "case.prm"),
+                ["Stages/shake/Duration=0.01",
+                 "Initial motion/Velocity=1e-3*exp(-(x*x+(z+8)^2)); 0; 0"]),
             # a block in several ranks, with free fields and dashpots
             "divided": (os.path.join(common.VERIFICATION, "free_field_sides",
                                      "case.prm"),

@@ -59,6 +59,7 @@ CASES = {
                              "Joints/mortar/Cracks=close",
                              "Output/Field interval=1e-3"], ALL),
     "free field": of_ranks("free field", UP),
+    "space, free field": of_ranks("space, free field", UP),
     "divided": of_ranks("divided", ALL),
     "divided, cracked": of_ranks("divided, cracked", DOWN),
     "reset, divided": of_ranks("reset, divided", ALL),
