@@ -40,6 +40,13 @@ namespace quoin
     }
   };
 
+  dealii::Tensor<2, 3> rotation_of(const SpacePlatenState &platen);
+  void set_rotation(const dealii::Tensor<2, 3> &rotation,
+                    SpacePlatenState &platen);
+
+  /** The rotation by the angle |@p turn| [rad] about @p turn. */
+  dealii::Tensor<2, 3> rotation_by(const dealii::Tensor<1, 3> &turn);
+
   /**
    * A Platen in three dimensions, with six degrees of freedom. Its rotations
    * are given by the rates at which it turns about the axes of the coordinates,
