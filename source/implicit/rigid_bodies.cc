@@ -67,7 +67,16 @@ namespace quoin
       {
         auto &platen
             = state.template get<SpacePlatenState>(bodies[b].platen->name());
+        // Iterations turned it one after the other: of a free turn the rates
+        // are those of the one turn of the step.
+        const dealii::Tensor<1, 3> turn
+            = turn_of(configuration.turned[b] * transpose(rotation_of(platen)));
+        const auto before   = platen.displacement;
         platen.displacement = d;
+        if (std::none_of(bodies[b].given.begin() + 3, bodies[b].given.end(),
+                         [](const bool given) { return given; }))
+          for (unsigned int k = 0; k < 3; ++k)
+            platen.displacement[3 + k] = before[3 + k] + turn[k];
         set_rotation(configuration.turned[b], platen);
       }
       else if (bodies[b].platen)

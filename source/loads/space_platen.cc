@@ -67,6 +67,18 @@ namespace quoin
         turn / angle, angle);
   }
 
+  dealii::Tensor<1, 3> turn_of(const dealii::Tensor<2, 3> &rotation)
+  {
+    const Vector axis = 0.5
+                        * Vector({ rotation[2][1] - rotation[1][2],
+                                   rotation[0][2] - rotation[2][0],
+                                   rotation[1][0] - rotation[0][1] });
+    const double sine = axis.norm();
+    return sine == 0.
+               ? axis
+               : std::atan2(sine, 0.5 * (trace(rotation) - 1.)) / sine * axis;
+  }
+
   SpacePlaten::SpacePlaten(const LoadParameters &parameters,
                            const NodeMap<3> &node_map)
     : components(parameters.components), turns(parameters.rotations),

@@ -99,6 +99,7 @@ CASES = {
                                    "Implicit/Largest step=0.05"]),
     "implicit, space": of_ranks("implicit, space", UP),
     "mixed": of_ranks("mixed", ALL),
+    "implicit, turning": of_ranks("implicit, turning", ALL),
     "implicit, mixed": of_ranks("implicit, mixed", UP),
     "implicit, quadratic": of_ranks("implicit, divided, cracked", UP,
                                     ["Mesh/Triangles=quadratic"]),

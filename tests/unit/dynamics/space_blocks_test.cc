@@ -509,7 +509,7 @@ namespace
                                 { "z0" });
     for (LoadComponent &part : below.components)
       part = component(LoadQuantity::velocity,
-                       "1e-9*(1-cos(2*pi*t/0.012))*if(t<0.012,1,0)");
+                       "1e-9*(1-cos(2*pi*t/0.016))*if(t<0.016,1,0)");
     LoadParameters sides
         = load("sides", LoadType::free_field, { "x0", "x1", "y0", "y1" });
     if (prescribed)
