@@ -145,11 +145,29 @@ namespace quoin
       return result;
     }
 
+    /** Sorts @p faces by their places, which are the same on any number of
+        ranks. */
+    void sort_by_place(std::vector<BoundaryFace<3>> &faces)
+    {
+      const auto key = [](const BoundaryFace<3> &face)
+      {
+        std::array<FreeFieldGrid::Place, 3> places;
+        for (unsigned int k = 0; k < 3; ++k)
+          for (unsigned int d = 0; d < 3; ++d)
+            places[k][d] = face.points[k][d];
+        std::sort(places.begin(), places.end());
+        return places;
+      };
+      std::sort(faces.begin(), faces.end(),
+                [&](const BoundaryFace<3> &a, const BoundaryFace<3> &b)
+                { return key(a) < key(b); });
+    }
+
     /** The faces of each vertical plane. */
     std::vector<std::vector<BoundaryFace<3>>>
-    plane_sides(const std::string &load,
-                const std::vector<BoundaryFace<3>> &faces)
+    plane_sides(const std::string &load, std::vector<BoundaryFace<3>> faces)
     {
+      sort_by_place(faces);
       std::vector<std::vector<BoundaryFace<3>>> sides;
       for (const BoundaryFace<3> &face : faces)
       {

@@ -75,7 +75,17 @@ namespace quoin
   void FreeFieldGrid::make_triangles(const std::vector<BoundaryFace<3>> &faces,
                                      const FreeFieldGround &ground)
   {
+    // Numbers follow from places: those of the model differ with the ranks.
     std::map<Place, unsigned int> nodes;
+    for (const BoundaryFace<3> &face : faces)
+      for (const auto &p : face.points)
+        nodes[place_of(p)] = 0;
+    for (auto &[place, number] : nodes)
+    {
+      number = places.size();
+      places.push_back(place);
+    }
+    node_mass.resize(places.size());
     const Vector normal = outward_area(faces.front().points);
     along               = Vector({ -normal[1], normal[0], 0. }) / normal.norm();
     size                = std::numeric_limits<double>::max();
@@ -87,11 +97,7 @@ namespace quoin
       triangle.area        = outward.norm();
       for (unsigned int k = 0; k < 3; ++k)
       {
-        const auto [found, is_new]
-            = nodes.insert({ place_of(p[k]), nodes.size() });
-        triangle.nodes[k] = found->second;
-        if (is_new)
-          places.push_back(found->first);
+        triangle.nodes[k]     = nodes.at(place_of(p[k]));
         const Vector opposite = p[(k + 2) % 3] - p[(k + 1) % 3];
         size                  = std::min(size, opposite.norm());
         triangle.gradients[k]
@@ -103,7 +109,6 @@ namespace quoin
       const LinearElastic &material = ground.materials[face.group];
       triangle.density              = material.density;
       triangle.stiffness            = space_stiffness(material);
-      node_mass.resize(places.size());
       for (const unsigned int node : triangle.nodes)
         node_mass[node] += material.density * triangle.area / 3.;
       triangles.push_back(triangle);
