@@ -73,6 +73,12 @@ namespace
       const double *u = platen(k).rigid_motion()->displacement(state);
       return Vector({ u[0], u[1], u[2] });
     }
+    /** From the centre of the foot to that of the head, undeformed [m]. */
+    Vector arm() const
+    {
+      return state.get<SpacePlatenState>("head").centre
+             - state.get<SpacePlatenState>("foot").centre;
+    }
     Vector force(const unsigned int k) const
     {
       const auto f = solver.resultant(platen(k).name());
@@ -115,7 +121,7 @@ TEST(SpacePlatens, IterationsConvergeQuadraticallyToEquilibrium)
   EXPECT_NEAR(motion[3], 6. * constants::degree, 1e-14);
   EXPECT_LT(motion[5], -0.05);
   // Statics in the deformed position.
-  const Vector arm = Vector({ 0., 0., 4. }) + bar.moved(1);
+  const Vector arm = bar.arm() + bar.moved(1);
   EXPECT_LT((bar.force(0) + bar.force(1)).norm(), 1e-5 * 8e6);
   EXPECT_LT((bar.moment(0) + bar.moment(1)
              + dealii::cross_product_3d(arm, bar.force(1)))
@@ -138,7 +144,7 @@ TEST(SpacePlatens, ALooseHeadFollowsTheFootThroughLargeTurns)
         cap("head", "z1", {}, {}) },
       numbers);
   const Vector whole = constants::degree * Vector({ 80., 40., -60. });
-  const Vector arm({ 0., 0., 4. }), shift({ 2., -1., 0. });
+  const Vector arm   = bar.arm(), shift({ 2., -1., 0. });
   EXPECT_LT((bar.moved(1) - shift - (rotation_by(whole) * arm - arm)).norm(),
             1e-9);
   const double *motion = bar.platen(1).rigid_motion()->displacement(bar.state);
