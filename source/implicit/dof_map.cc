@@ -5,6 +5,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/implicit/dof_map.h>
 #include <quoin/loads/prescribed_motion.h>
+#include <quoin/loads/space_platen.h>
 #include <quoin/model/block_placement.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <type_traits>
 
 namespace quoin
 {
@@ -68,11 +70,9 @@ namespace quoin
       ties(model.nodes().n_local(),
            { dealii::numbers::invalid_dof_index, {}, {} })
   {
+    add_platens(constraints, state);
     if constexpr (dim == 2)
-    {
-      add_platens(constraints, state);
       add_rigid_blocks(held);
-    }
     number(has_factor);
 
     // The last constraint that acts on a node prevails.
@@ -94,26 +94,32 @@ namespace quoin
     update_constraints(configuration_of(body_list, state), state.load_time);
   }
 
-  template <>
-  void
-  DofMap<2>::add_platens(const std::vector<MotionConstraint<2> *> &constraints,
-                         const State<2> &state)
+  template <int dim>
+  void DofMap<dim>::add_platens(
+      const std::vector<MotionConstraint<dim> *> &constraints,
+      const State<dim> &state)
   {
-    for (const MotionConstraint<2> *constraint : constraints)
+    using PlatenStateOf
+        = std::conditional_t<dim == 2, PlatenState, SpacePlatenState>;
+    for (const MotionConstraint<dim> *platen : constraints)
     {
-      const MotionConstraint<2> *platen = constraint;
       if (!platen->traits().is_rigid_body())
         continue;
-      const PlatenState &now = state.get<PlatenState>(platen->name());
-      RigidBody<2> body;
+      const auto &now = state.template get<PlatenStateOf>(platen->name());
+      RigidBody<dim> body;
       body.platen      = platen;
       body.rigid_block = -1;
       body.nodes       = platen->nodes();
-      body.given       = platen->traits().holds;
+      for (unsigned int d = 0; d < body.given.size(); ++d)
+      {
+        const LoadQuantity quantity = body_component(*platen, d).quantity;
+        body.given[d]               = quantity == LoadQuantity::velocity
+                        || quantity == LoadQuantity::displacement;
+      }
       body.counts = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
       body.centre = now.centre;
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
-        body.arms.push_back(vector_at(now.arms, i));
+        body.arms.push_back(vector_at<dim>(now.arms, i));
       body_list.push_back(body);
     }
     n_platens = body_list.size();
@@ -149,10 +155,11 @@ namespace quoin
   {
     const NodeExchange &exchange = model.nodes().exchange();
     const DofIndex first_body    = dim * DofIndex(exchange.n_global());
-    const DofIndex first_rigid   = first_body + 4 * n_platens;
+    const DofIndex first_rigid   = first_body + dofs_per_body * n_platens;
     const dealii::IndexSet rigid
         = dealii::Utilities::MPI::create_ascending_partitioning(
-            communicator, 4 * DofIndex(body_list.size() - n_platens))
+            communicator,
+            dofs_per_body * DofIndex(body_list.size() - n_platens))
             [dealii::Utilities::MPI::this_mpi_process(communicator)];
 
     owned_dofs
@@ -173,10 +180,11 @@ namespace quoin
       RigidBody<dim> &body = body_list[b];
       body.first
           = b < n_platens
-                ? first_body + 4 * b
-                : first_rigid + rigid.nth_index_in_set(4 * (b - n_platens));
+                ? first_body + dofs_per_body * b
+                : first_rigid
+                      + rigid.nth_index_in_set(dofs_per_body * (b - n_platens));
       if (body.counts)
-        owned_dofs.add_range(body.first, body.first + 4);
+        owned_dofs.add_range(body.first, body.first + dofs_per_body);
       for (const unsigned int node : body.nodes)
         ties[node].body = body.first;
     }
@@ -188,7 +196,8 @@ namespace quoin
       relevant_dofs.add_index(factor_dof);
     has_bodies = !body_list.empty();
     for (unsigned int b = 0; b < n_platens; ++b)
-      relevant_dofs.add_range(body_list[b].first, body_list[b].first + 4);
+      relevant_dofs.add_range(body_list[b].first,
+                              body_list[b].first + dofs_per_body);
     for (unsigned int i = 0; i < exchange.n_local(); ++i)
     {
       const DofIndex first = dim * DofIndex(exchange.global(i));
@@ -199,7 +208,7 @@ namespace quoin
       relevant_dofs.add_range(first, first + dim);
       if (!is_in_body(i))
         continue;
-      relevant_dofs.add_range(ties[i].body, ties[i].body + 4);
+      relevant_dofs.add_range(ties[i].body, ties[i].body + dofs_per_body);
       has_bodies = true;
     }
     relevant_dofs.compress();
@@ -208,13 +217,14 @@ namespace quoin
   template <int dim>
   void DofMap<dim>::update_arms(const Configuration<dim> &configuration)
   {
-    if constexpr (dim == 2)
-      for (unsigned int b = 0; b < body_list.size(); ++b)
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+    {
+      RigidBody<dim> &body = body_list[b];
+      body.present_arms.resize(body.arms.size());
+      if constexpr (dim == 2)
       {
-        RigidBody<dim> &body = body_list[b];
-        const double c       = std::cos(configuration.bodies[b][2]),
-                     s       = std::sin(configuration.bodies[b][2]);
-        body.present_arms.resize(body.arms.size());
+        const double c = std::cos(configuration.bodies[b][2]),
+                     s = std::sin(configuration.bodies[b][2]);
         for (unsigned int i = 0; i < body.arms.size(); ++i)
         {
           const double x = body.arms[i][0], y = body.arms[i][1];
@@ -222,6 +232,10 @@ namespace quoin
               = dealii::Point<dim>(c * x - s * y, s * x + c * y);
         }
       }
+      else
+        for (unsigned int i = 0; i < body.arms.size(); ++i)
+          body.present_arms[i] = configuration.turned[b] * body.arms[i];
+    }
   }
 
   template <int dim>
@@ -245,25 +259,22 @@ namespace quoin
     for (unsigned int i = 0; i < ties.size(); ++i)
     {
       const Tie &tie = ties[i];
-      for (unsigned int d = 0; d < dim; ++d)
-        if (tie.body != dealii::numbers::invalid_dof_index)
-        {
-          affine.add_line(dof(i, d));
-          affine.add_entry(dof(i, d), tie.body + d, 1.);
-          affine.add_entry(dof(i, d), tie.body + 2,
-                           d == 0 ? -tie.motion[1] : tie.motion[0]);
-        }
-        else if (tie.given[d])
-        {
-          if (are_new)
-            affine.add_line(dof(i, d));
-          affine.set_inhomogeneity(dof(i, d), tie.motion[d]);
-        }
+      if (is_in_body(i))
+        add_tie(i);
+      else
+        for (unsigned int d = 0; d < dim; ++d)
+          if (tie.given[d])
+          {
+            if (are_new)
+              affine.add_line(dof(i, d));
+            affine.set_inhomogeneity(dof(i, d), tie.motion[d]);
+          }
     }
     for (const RigidBody<dim> &body : body_list)
     {
-      affine.add_line(body.first + 3);
-      for (unsigned int d = 0; d < 3; ++d)
+      if (dim == 2)
+        affine.add_line(body.first + 3);
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
         if (body.given[d])
         {
           affine.add_line(body.first + d);
@@ -275,12 +286,33 @@ namespace quoin
   }
 
   template <int dim>
+  void DofMap<dim>::add_tie(const unsigned int node)
+  {
+    const Tie &tie = ties[node];
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      affine.add_line(dof(node, d));
+      affine.add_entry(dof(node, d), tie.body + d, 1.);
+      if (dim == 2)
+        affine.add_entry(dof(node, d), tie.body + 2,
+                         d == 0 ? -tie.motion[1] : tie.motion[0]);
+      else // dtheta x r
+      {
+        const unsigned int e = (d + 1) % 3, f = (d + 2) % 3;
+        affine.add_entry(dof(node, d), tie.body + dim + e, tie.motion[f]);
+        affine.add_entry(dof(node, d), tie.body + dim + f, -tie.motion[e]);
+      }
+    }
+  }
+
+  template <int dim>
   double DofMap<dim>::given_motion(const RigidBody<dim> &body,
                                    const unsigned int d, const double from,
                                    const double to) const
   {
-    return given_change<dim>((*body.platen->parts())[d], from, to, stage_start)
-           * (d == 2 ? constants::degree : 1.);
+    return given_change<dim>(body_component(*body.platen, d), from, to,
+                             stage_start)
+           * (d >= dim ? constants::degree : 1.);
   }
 
   template <int dim>
@@ -299,18 +331,24 @@ namespace quoin
           *p.part, before, load_time, stage_start, model.nodes().point(p.node));
 
     // All ranks have the platens; the first one solves for their motion.
-    BodyValues changes(body_list.size(), { { 0., 0., 0. } });
+    BodyValues<dim> changes(body_list.size());
     for (unsigned int b = 0; b < body_list.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
         if (body_list[b].counts && !body_list[b].given[d])
           changes[b][d] = share * increment(body_list[b].first + d);
     sum_of_platens(body_list, changes, communicator);
     for (unsigned int b = 0; b < body_list.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
-        configuration.bodies[b][d]
-            += body_list[b].given[d]
-                   ? given_motion(body_list[b], d, before, load_time)
-                   : changes[b][d];
+    {
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
+      {
+        if (body_list[b].given[d])
+          changes[b][d] = given_motion(body_list[b], d, before, load_time);
+        configuration.bodies[b][d] += changes[b][d];
+      }
+      if constexpr (dim == 3)
+        configuration.turned[b] = rotation_by(vector_at<dim>(changes[b], 1))
+                                  * configuration.turned[b];
+    }
     place_nodes(body_list, configuration);
     model.nodes().exchange().update_ghosts(configuration.nodes.data());
   }

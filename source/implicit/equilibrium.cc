@@ -396,23 +396,39 @@ namespace quoin
     }
   }
 
-  template <>
-  void
-  Equilibrium<2>::add_turning(const AlignedArray<dealii::Tensor<1, 2>> &force)
+  template <int dim>
+  void Equilibrium<dim>::add_turning(
+      const AlignedArray<dealii::Tensor<1, dim>> &force, DofVector &by_advance)
   {
-    // The arms turn with the body: r x f changes by -r . f per radian.
-    for (const RigidBody<2> &body : dof_map.bodies())
+    // The arms turn with the body: r x f changes by r (dtheta . f) - dtheta
+    // (r . f), in the plane by -r . f per radian.
+    constexpr unsigned int n = n_body_motions<dim> - dim;
+    for (const RigidBody<dim> &body : dof_map.bodies())
     {
-      if (body.given[2])
-        continue;
-      double sum = 0.;
+      std::array<std::array<double, n>, n> sum{};
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
       {
-        const dealii::Tensor<1, 2> &f = force[body.nodes[i]];
-        const auto &arm               = body.present_arms[i];
-        sum += arm[0] * f[0] + arm[1] * f[1];
+        const dealii::Tensor<1, dim> &f = force[body.nodes[i]];
+        const auto &arm                 = body.present_arms[i];
+        double along                    = arm[0] * f[0] + arm[1] * f[1];
+        if constexpr (dim == 3)
+          along += arm[2] * f[2];
+        for (unsigned int d = 0; d < n; ++d)
+        {
+          sum[d][d] += along;
+          for (unsigned int e = 0; dim == 3 && e < n; ++e)
+            sum[d][e] -= arm[d] * f[e];
+        }
       }
-      matrix.add(body.first + 2, body.first + 2, sum);
+      const Index first = body.first + dim;
+      for (unsigned int d = 0; d < n; ++d)
+        for (unsigned int e = 0; !body.given[dim + d] && e < n; ++e)
+          if (!body.given[dim + e])
+            matrix.add(first + d, first + e, sum[d][e]);
+          else
+            by_advance(first + d)
+                -= sum[d][e]
+                   * dof_map.constraints().get_inhomogeneity(first + e);
     }
   }
 
@@ -479,7 +495,7 @@ namespace quoin
     balance.drives    = body_loads(
            dof_map.bodies(),
            { configuration.load_time, stage_start + configuration.load_time });
-    balance.held.assign(dof_map.bodies().size(), { { 0., 0., 0. } });
+    balance.held.assign(dof_map.bodies().size(), {});
     for (unsigned int i = 0; i < n_owned; ++i)
     {
       applied_force[i] += balance.external[i];
@@ -489,7 +505,7 @@ namespace quoin
     }
     if (!held.empty())
       for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
-        for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
           balance.held[b][d] = left * held_force(dof_map.bodies(), now, b, d);
     find_ratio(applied_force, balance);
   }
@@ -537,11 +553,11 @@ namespace quoin
       for (const dealii::Tensor<1, dim> &arm : body.arms)
         for (unsigned int d = 0; d < dim; ++d)
           size = std::max(size, std::abs(arm[d]));
-      for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
         if (!body.given[d] && (d < dim || size > 0.))
           sums[0] += std::abs(bodies[b][d] + balance.drives[b][d]
                               + balance.held[b][d])
-                     / (d == dim ? size : 1.);
+                     / (d >= dim ? size : 1.);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     balance.unbalanced = balance.beams_stand
@@ -584,8 +600,7 @@ namespace quoin
     if constexpr (dim == 2)
       add_far_field(committed, configuration, balance, &slopes);
     add_loads(committed, configuration, balance);
-    if constexpr (dim == 2)
-      add_turning(balance.force);
+    add_turning(balance.force, slopes.by_advance);
     if (pattern)
       add_pattern(configuration, advance.load_time, slopes.by_advance);
     matrix.compress(dealii::VectorOperation::add);
@@ -613,7 +628,7 @@ namespace quoin
         = body_loads(dof_map.bodies(),
                      { advance.load_time, stage_start + advance.load_time });
     for (unsigned int b = 0; b < drives.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
         drives[b][d]
             -= balance.drives[b][d]
                + (held.empty()

@@ -283,7 +283,7 @@ namespace quoin
         = body_forces(dof_map->bodies(), balance.force, communicator);
     now.held_blocks.resize(3 * std::size_t(model.rigid_blocks().n_blocks()));
     for (unsigned int b = 0; b < forces.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
       {
         const RigidBody<dim> &body = dof_map->bodies()[b];
         const double held
@@ -724,6 +724,19 @@ namespace quoin
         return reaction(model, *dof_map, all.far.elastostatic, balance,
                         *constraint);
     return {};
+  }
+
+  template <int dim>
+  std::array<double, 3>
+  ImplicitSolver<dim>::moments(const MotionConstraint<dim> &platen) const
+  {
+    std::array<double, 3> result{};
+    if (dim == 3 && !balance.force.empty())
+    {
+      const auto drive = platen_drive(model, *dof_map, balance, platen);
+      std::copy(drive.end() - 3, drive.end(), result.begin());
+    }
+    return result;
   }
 
   template <int dim>

@@ -163,19 +163,26 @@ namespace quoin
         free[d] = dof_map.is_free(i, d);
       place(dof_map.dof(i, 0), configuration.nodes[i].position(), free);
     }
-    if constexpr (dim == 2)
-      for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
+    for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
+    {
+      const RigidBody<dim> &body = dof_map.bodies()[b];
+      if (!body.counts)
+        continue;
+      std::array<bool, dim> free;
+      for (unsigned int d = 0; d < dim; ++d)
+        free[d] = !body.given[d];
+      place(body.first,
+            dealii::Point<dim>(body.centre
+                               + vector_at<dim>(configuration.bodies[b], 0)),
+            free);
+      // In the planes xy, xz and yz it turns about z, -y and x.
+      for (unsigned int k = 0; k < n_rotations; ++k)
       {
-        const RigidBody<2> &body = dof_map.bodies()[b];
-        if (!body.counts)
-          continue;
-        place(body.first,
-              dealii::Point<2>(body.centre
-                               + vector_at(configuration.bodies[b], 0)),
-              { { !body.given[0], !body.given[1] } });
-        if (!body.given[2])
-          set(2, body.first + 2, 1. / size);
+        const unsigned int d = dim + (n_rotations - 1 - k);
+        if (!body.given[d])
+          set(dim + k, body.first + d, (k == 1 ? -1. : 1.) / size);
       }
+    }
   }
 
   template <int dim>

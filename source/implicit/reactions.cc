@@ -4,6 +4,8 @@
 #include <quoin/implicit/implicit_state.h>
 #include <quoin/implicit/reactions.h>
 
+#include <algorithm>
+
 namespace quoin
 {
   template <int dim>
@@ -57,7 +59,7 @@ namespace quoin
       const RigidBody<dim> &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
-      for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
       {
         const double u      = configuration.bodies[b][d] - before.bodies[b][d];
         const double forces = 0.5 * (forces_0[b][d] + forces_1[b][d]);
@@ -70,6 +72,22 @@ namespace quoin
   }
 
   template <int dim>
+  std::array<double, n_body_motions<dim>>
+  platen_drive(const Model<dim> &model, const DofMap<dim> &dof_map,
+               const Balance<dim> &balance, const MotionConstraint<dim> &platen)
+  {
+    std::array<double, n_body_motions<dim>> result{};
+    const auto forces = body_forces(dof_map.bodies(), balance.force,
+                                    model.nodes().communicator());
+    for (unsigned int b = 0; b < forces.size(); ++b)
+      if (dof_map.bodies()[b].platen == &platen)
+        for (unsigned int d = 0; d < result.size(); ++d)
+          result[d] = dof_map.bodies()[b].given[d] ? -forces[b][d]
+                                                   : balance.drives[b][d];
+    return result;
+  }
+
+  template <int dim>
   std::array<double, 3>
   reaction(const Model<dim> &model, const DofMap<dim> &dof_map,
            const StaticFarField *far_field, const Balance<dim> &balance,
@@ -79,13 +97,8 @@ namespace quoin
     std::array<double, 3> result{};
     if (constraint.traits().is_rigid_body())
     {
-      const auto forces
-          = body_forces(dof_map.bodies(), balance.force, communicator);
-      for (unsigned int b = 0; b < forces.size(); ++b)
-        if (dof_map.bodies()[b].platen == &constraint)
-          for (unsigned int d = 0; d < 3; ++d)
-            result[d] = dof_map.bodies()[b].given[d] ? -forces[b][d]
-                                                     : balance.drives[b][d];
+      const auto drive = platen_drive(model, dof_map, balance, constraint);
+      std::copy_n(drive.begin(), 3, result.begin());
       return result;
     }
     if constexpr (dim == 2)
@@ -111,6 +124,10 @@ namespace quoin
                           const State<2> &, const Balance<2> &,
                           const Configuration<2> &, const Balance<2> &,
                           EnergyAccounts &);
+  template std::array<double, 3> platen_drive(const Model<2> &,
+                                              const DofMap<2> &,
+                                              const Balance<2> &,
+                                              const MotionConstraint<2> &);
   template std::array<double, 3> reaction(const Model<2> &, const DofMap<2> &,
                                           const StaticFarField *,
                                           const Balance<2> &,
@@ -119,6 +136,10 @@ namespace quoin
                           const State<3> &, const Balance<3> &,
                           const Configuration<3> &, const Balance<3> &,
                           EnergyAccounts &);
+  template std::array<double, 6> platen_drive(const Model<3> &,
+                                              const DofMap<3> &,
+                                              const Balance<3> &,
+                                              const MotionConstraint<3> &);
   template std::array<double, 3> reaction(const Model<3> &, const DofMap<3> &,
                                           const StaticFarField *,
                                           const Balance<3> &,

@@ -5,7 +5,7 @@
 #include <quoin/base/packed_vectors.h>
 #include <quoin/loading/load_pattern.h>
 #include <quoin/implicit/rigid_bodies.h>
-#include <quoin/loads/platen.h>
+#include <quoin/loads/space_platen.h>
 #include <quoin/blocks/rigid_blocks.h>
 
 #include <algorithm>
@@ -13,14 +13,13 @@
 
 namespace quoin
 {
-  namespace
+  template <int dim>
+  const LoadComponent &body_component(const MotionConstraint<dim> &platen,
+                                      const unsigned int d)
   {
-    bool is_driven(const LoadComponent &component)
-    {
-      return component.quantity == LoadQuantity::velocity
-             || component.quantity == LoadQuantity::displacement;
-    }
-  } // namespace
+    return d < 3 ? (*platen.parts())[d]
+                 : (*platen.rigid_motion()->rotations())[d - 3];
+  }
 
   template <int dim>
   Configuration<dim> configuration_of(const RigidBodies<dim> &bodies,
@@ -32,18 +31,23 @@ namespace quoin
     result.released  = state.template get<ImplicitState>().released;
     result.factor    = state.template get<LoadPatternState>().factor;
     for (const RigidBody<dim> &body : bodies)
+    {
+      auto &motion = result.bodies.emplace_back();
       if (body.platen)
       {
         const double *d = body.platen->rigid_motion()->displacement(state);
-        result.bodies.push_back({ { d[0], d[1], d[2] } });
+        std::copy(d, d + motion.size(), motion.begin());
+        if constexpr (dim == 3)
+          result.turned.push_back(rotation_of(
+              state.template get<SpacePlatenState>(body.platen->name())));
+        continue;
       }
-      else
-      {
-        const RigidBlockState &block
-            = state.template get<RigidBlockStates>()[body.rigid_block];
-        result.bodies.push_back({ { block.displacement[0],
-                                    block.displacement[1], block.rotation } });
-      }
+      const RigidBlockState &block
+          = state.template get<RigidBlockStates>()[body.rigid_block];
+      motion[0] = block.displacement[0];
+      motion[1] = block.displacement[1];
+      motion[2] = block.rotation;
+    }
     return result;
   }
 
@@ -59,7 +63,23 @@ namespace quoin
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       const auto &d = configuration.bodies[b];
-      if (bodies[b].platen)
+      if constexpr (dim == 3)
+      {
+        auto &platen
+            = state.template get<SpacePlatenState>(bodies[b].platen->name());
+        // Iterations turned it one after the other: of a free turn the rates
+        // are those of the one turn of the step.
+        const dealii::Tensor<1, 3> turn
+            = turn_of(configuration.turned[b] * transpose(rotation_of(platen)));
+        const auto before   = platen.displacement;
+        platen.displacement = d;
+        if (std::none_of(bodies[b].given.begin() + 3, bodies[b].given.end(),
+                         [](const bool given) { return given; }))
+          for (unsigned int k = 0; k < 3; ++k)
+            platen.displacement[3 + k] = before[3 + k] + turn[k];
+        set_rotation(configuration.turned[b], platen);
+      }
+      else if (bodies[b].platen)
         std::copy(d.begin(), d.end(),
                   state.template get<PlatenState>(bodies[b].platen->name())
                       .displacement);
@@ -94,46 +114,66 @@ namespace quoin
               = body.centre[1] + y - node.X[1] + d[1] + s * x + (c - 1.) * y;
         }
       }
+    else
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const RigidBody<dim> &body = bodies[b];
+        const auto change
+            = configuration.turned[b]
+              - dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>());
+        for (unsigned int i = 0; i < body.nodes.size(); ++i)
+        {
+          NodeRecord<dim> &node = configuration.nodes[body.nodes[i]];
+          node.u                = body.centre + body.arms[i] - node.X
+                   + vector_at<dim>(configuration.bodies[b], 0)
+                   + change * body.arms[i];
+        }
+      }
   }
 
   template <int dim>
-  void sum_of_platens(const RigidBodies<dim> &bodies, BodyValues &values,
+  void sum_of_platens(const RigidBodies<dim> &bodies, BodyValues<dim> &values,
                       const MPI_Comm communicator)
   {
     const unsigned int n = std::count_if(bodies.begin(), bodies.end(),
                                          [](const RigidBody<dim> &body)
                                          { return body.platen != nullptr; });
     if (n > 0)
-      MPI_Allreduce(MPI_IN_PLACE, values.data(), 3 * n, MPI_DOUBLE, MPI_SUM,
-                    communicator);
+      MPI_Allreduce(MPI_IN_PLACE, values.data(), n_body_motions<dim> * n,
+                    MPI_DOUBLE, MPI_SUM, communicator);
   }
 
   template <int dim>
-  BodyValues body_forces(const RigidBodies<dim> &bodies,
-                         const AlignedArray<dealii::Tensor<1, dim>> &force,
-                         const MPI_Comm communicator)
+  BodyValues<dim> body_forces(const RigidBodies<dim> &bodies,
+                              const AlignedArray<dealii::Tensor<1, dim>> &force,
+                              const MPI_Comm communicator)
   {
-    BodyValues result(bodies.size(), { { 0., 0., 0. } });
-    if constexpr (dim == 2)
-      for (unsigned int b = 0; b < bodies.size(); ++b)
-        for (unsigned int i = 0; i < bodies[b].nodes.size(); ++i)
-        {
-          const dealii::Tensor<1, dim> &f = force[bodies[b].nodes[i]];
-          add_to_vector(result[b], 0, f);
+    BodyValues<dim> result(bodies.size());
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int i = 0; i < bodies[b].nodes.size(); ++i)
+      {
+        const dealii::Tensor<1, dim> &f = force[bodies[b].nodes[i]];
+        add_to_vector(result[b], 0, f);
+        if constexpr (dim == 2)
           result[b][2] += cross(bodies[b].present_arms[i], f);
-        }
+        else
+          add_to_vector<dim>(
+              result[b], 1,
+              dealii::cross_product_3d(bodies[b].present_arms[i], f));
+      }
     sum_of_platens(bodies, result, communicator);
     return result;
   }
 
   template <int dim>
-  BodyValues body_loads(const RigidBodies<dim> &bodies, const TimePoint &time)
+  BodyValues<dim> body_loads(const RigidBodies<dim> &bodies,
+                             const TimePoint &time)
   {
-    BodyValues result(bodies.size(), { { 0., 0., 0. } });
+    BodyValues<dim> result(bodies.size());
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
-        if (bodies[b].platen && !is_driven((*bodies[b].platen->parts())[d]))
-          result[b][d] = (*bodies[b].platen->parts())[d].value(time);
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
+        if (bodies[b].platen && !bodies[b].given[d])
+          result[b][d] = body_component(*bodies[b].platen, d).value(time);
     return result;
   }
 
@@ -141,16 +181,17 @@ namespace quoin
   double held_force(const RigidBodies<dim> &bodies, const ImplicitState &state,
                     const unsigned int b, const unsigned int d)
   {
-    return bodies[b].platen ? state.held_platens[3 * b + d]
+    return bodies[b].platen ? state.held_platens[n_body_motions<dim> * b + d]
                             : state.held_blocks[3 * bodies[b].rigid_block + d];
   }
 
   template <int dim>
-  void add_body_forces(const RigidBodies<dim> &bodies, const BodyValues &force,
+  void add_body_forces(const RigidBodies<dim> &bodies,
+                       const BodyValues<dim> &force,
                        dealii::TrilinosWrappers::MPI::Vector &right_hand_side)
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
         if (bodies[b].counts && !bodies[b].given[d])
           right_hand_side(bodies[b].first + d) += force[b][d];
   }
@@ -160,28 +201,34 @@ namespace quoin
   template void write_configuration(const RigidBodies<2> &,
                                     const Configuration<2> &, State<2> &);
   template void place_nodes(const RigidBodies<2> &, Configuration<2> &);
-  template void sum_of_platens(const RigidBodies<2> &, BodyValues &, MPI_Comm);
-  template BodyValues body_forces(const RigidBodies<2> &,
-                                  const AlignedArray<dealii::Tensor<1, 2>> &,
-                                  MPI_Comm);
-  template BodyValues body_loads(const RigidBodies<2> &, const TimePoint &);
+  template void sum_of_platens(const RigidBodies<2> &, BodyValues<2> &,
+                               MPI_Comm);
+  template BodyValues<2> body_forces(const RigidBodies<2> &,
+                                     const AlignedArray<dealii::Tensor<1, 2>> &,
+                                     MPI_Comm);
+  template BodyValues<2> body_loads(const RigidBodies<2> &, const TimePoint &);
   template double held_force(const RigidBodies<2> &, const ImplicitState &,
                              unsigned int, unsigned int);
-  template void add_body_forces(const RigidBodies<2> &, const BodyValues &,
+  template void add_body_forces(const RigidBodies<2> &, const BodyValues<2> &,
                                 dealii::TrilinosWrappers::MPI::Vector &);
 
+  template const LoadComponent &body_component(const MotionConstraint<2> &,
+                                               unsigned int);
   template Configuration<3> configuration_of(const RigidBodies<3> &,
                                              const State<3> &);
   template void write_configuration(const RigidBodies<3> &,
                                     const Configuration<3> &, State<3> &);
   template void place_nodes(const RigidBodies<3> &, Configuration<3> &);
-  template void sum_of_platens(const RigidBodies<3> &, BodyValues &, MPI_Comm);
-  template BodyValues body_forces(const RigidBodies<3> &,
-                                  const AlignedArray<dealii::Tensor<1, 3>> &,
-                                  MPI_Comm);
-  template BodyValues body_loads(const RigidBodies<3> &, const TimePoint &);
+  template void sum_of_platens(const RigidBodies<3> &, BodyValues<3> &,
+                               MPI_Comm);
+  template BodyValues<3> body_forces(const RigidBodies<3> &,
+                                     const AlignedArray<dealii::Tensor<1, 3>> &,
+                                     MPI_Comm);
+  template BodyValues<3> body_loads(const RigidBodies<3> &, const TimePoint &);
   template double held_force(const RigidBodies<3> &, const ImplicitState &,
                              unsigned int, unsigned int);
-  template void add_body_forces(const RigidBodies<3> &, const BodyValues &,
+  template void add_body_forces(const RigidBodies<3> &, const BodyValues<3> &,
                                 dealii::TrilinosWrappers::MPI::Vector &);
+  template const LoadComponent &body_component(const MotionConstraint<3> &,
+                                               unsigned int);
 } // namespace quoin

@@ -76,7 +76,7 @@ namespace quoin
     const auto forces
         = body_forces(dof_map.bodies(), balance.force, communicator);
     for (unsigned int b = 0; b < forces.size(); ++b)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         if (const RigidBody<dim> &body = dof_map.bodies()[b];
             !body.given[d] && !body.nodes.empty())
           compare(body.nodes.front(),

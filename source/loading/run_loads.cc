@@ -13,6 +13,7 @@
 #include <quoin/model/material_waves.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace quoin
 {
@@ -44,6 +45,31 @@ namespace quoin
           "section 'Loads/" + load.name
           + "': 'Pressure = uplift' is known in two dimensions "
             "alone. Give the pressure as a function of the place.");
+    }
+
+    /** Refuses free fields with common nodes, where one alone would act. */
+    template <int dim>
+    void refuse_meeting_fields(
+        const std::vector<const MotionConstraint<dim> *> &fields,
+        const MPI_Comm communicator)
+    {
+      for (const auto *a : fields)
+        for (const auto *b : fields)
+        {
+          std::vector<unsigned int> common;
+          if (a != b)
+            std::set_intersection(a->nodes().begin(), a->nodes().end(),
+                                  b->nodes().begin(), b->nodes().end(),
+                                  std::back_inserter(common));
+          if (dealii::Utilities::MPI::max(int(!common.empty()), communicator)
+              > 0)
+            throw InputError("section 'Loads/" + a->name()
+                             + "': 'Boundary' meets that of the load '"
+                             + b->name()
+                             + "', but where sides meet one free field acts on "
+                               "the nodes. Give all of these sides to one "
+                               "load.");
+        }
     }
   } // namespace
 
@@ -87,8 +113,7 @@ namespace quoin
         break;
       }
     }
-    if constexpr (dim == 2)
-      add_free_fields(model, loads);
+    add_free_fields(model, loads);
   }
 
   template <>
@@ -103,10 +128,11 @@ namespace quoin
       constraints.push_back(std::move(static_field));
   }
 
-  template <>
-  void RunLoads<2>::add_free_fields(const Model<2> &model,
-                                    const std::vector<LoadParameters> &loads)
+  template <int dim>
+  void RunLoads<dim>::add_free_fields(const Model<dim> &model,
+                                      const std::vector<LoadParameters> &loads)
   {
+    std::vector<const MotionConstraint<dim> *> fields;
     for (const LoadParameters &load : loads)
     {
       if (load.type != LoadType::free_field)
@@ -129,10 +155,13 @@ namespace quoin
                            "but waves in the column beside the model are those "
                            "of one motion. Give the base a function of time "
                            "alone.");
-      constraints.push_back(std::make_unique<FreeFieldBoundary>(
+      constraints.push_back(std::make_unique<FreeFieldBoundary<dim>>(
           load, model.nodes(), free_field_ground(model),
           FreeFieldBase{ *base, impedance_beyond(model, *base) }));
+      fields.push_back(constraints.back().get());
     }
+    if (dim == 3)
+      refuse_meeting_fields(fields, model.nodes().communicator());
   }
 
   template <int dim>

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/number_text.h>
 #include <quoin/base/packed_vectors.h>
 #include <quoin/operators/archive.h>
-#include <quoin/base/exceptions.h>
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace quoin
 {
@@ -21,324 +20,377 @@ namespace quoin
 
     std::string at(const double x, const double y)
     {
-      std::ostringstream text;
-      text << "(" << x << ", " << y << ") m";
-      return text.str();
+      return text_of("(", x, ", ", y, ") m");
     }
-  } // namespace
 
-  FreeFieldBoundary::FreeFieldBoundary(const LoadParameters &parameters,
-                                       const NodeMap<2> &node_map,
-                                       const FreeFieldGround &ground,
-                                       const FreeFieldBase &given)
-  {
-    load_name            = parameters.name;
-    own_traits.companion = given.load.name;
-    const auto faces
-        = faces_of_curves(node_map, parameters.boundaries, load_name);
-    node_list = nodes_of_faces(node_map, faces);
-    make_column(faces, ground);
-    make_shares(node_map, faces);
-    const auto base_faces = make_foot(node_map, given);
+    std::string at(const dealii::Point<3> &p)
+    {
+      return text_of("(", p[0], ", ", p[1], ", ", p[2], ") m");
+    }
 
-    std::vector<Impedance> impedance;
-    for (const LinearElastic &material : ground.materials)
-      impedance.push_back(impedance_of(material, ground.plane));
-    side_dashpots.resize(node_list.size());
-    base_dashpots.resize(node_list.size());
-    add_dashpots(node_map, faces, impedance, ground.thickness, node_list,
-                 side_dashpots);
-    if (!base.is_prescribed)
-      add_dashpots(node_map, base_faces, given.impedance, ground.thickness,
-                   node_list, base_dashpots);
-    damping.resize(node_list.size());
-    pull.resize(node_list.size());
-    for (unsigned int i = 0; i < node_list.size(); ++i)
-      for (unsigned int k = 0; k < 3; ++k)
-        damping[i][k]
-            = side_dashpots[i].damping[k] + base_dashpots[i].damping[k];
-    traction.resize(layers.size());
-    force.resize(2 * node_height.size());
-    mean_velocity.resize(2 * node_height.size());
-  }
-
-  void FreeFieldBoundary::fail(const std::string &setting,
-                               const std::string &why) const
-  {
-    throw InputError("section 'Loads/" + load_name + "': '" + setting + "' "
-                     + why);
-  }
-
-  // -- what is constant ------------------------------------------------------
-
-  void FreeFieldBoundary::make_column(const std::vector<BoundaryFace<2>> &faces,
-                                      const FreeFieldGround &ground)
-  {
-    // Edges point up where the cells are on the left of the side.
-    struct Edge
+    /** An edge of a side in the plane. */
+    struct SideEdge
     {
       double bottom, top;
       unsigned int group;
     };
-    std::vector<Edge> edges;
-    for (const BoundaryFace<2> &face : faces)
+
+    /** The edges of @p faces, from below, which must be one vertical side. */
+    std::vector<SideEdge>
+    edges_of_side(const std::string &load,
+                  const std::vector<BoundaryFace<2>> &faces,
+                  const FreeFieldGround &ground)
     {
-      const auto &a  = face.points[0];
-      const auto &b  = face.points[1];
-      const double n = b[1] > a[1] ? 1. : -1.;
-      if (edges.empty())
+      // Edges point up where the cells are on the left of the side.
+      const auto direction = [](const BoundaryFace<2> &face)
+      { return face.points[1][1] > face.points[0][1]; };
+      const double x = faces.front().points[0][0];
+      std::vector<SideEdge> edges;
+      for (const BoundaryFace<2> &face : faces)
       {
-        x       = a[0];
-        outward = n;
+        const auto &a     = face.points[0];
+        const auto &b     = face.points[1];
+        const double near = same_share * a.distance(b);
+        if (std::abs(b[0] - a[0]) > near || std::abs(a[0] - x) > near
+            || direction(face) != direction(faces.front()))
+          fail_free_field(
+              load, "Boundary",
+              "must be one vertical side of the model, but has an edge from "
+                  + at(a[0], a[1]) + " to " + at(b[0], b[1])
+                  + " that is not vertical, not in line with the first one or "
+                    "on the other side of its block. Give each side a load of "
+                    "its own.");
+        check_free_field_ground(load, ground, face.group, at(a[0], a[1]));
+        edges.push_back(
+            { std::min(a[1], b[1]), std::max(a[1], b[1]), face.group });
       }
-      const double near = same_share * a.distance(b);
-      if (std::abs(b[0] - a[0]) > near || std::abs(a[0] - x) > near
-          || n != outward)
-        fail(
-            "Boundary",
-            "must be one vertical side of the model, but has an edge from "
-                + at(a[0], a[1]) + " to " + at(b[0], b[1])
-                + " that is not vertical, not in line with the first one or on "
-                  "the other side of its block. Give each side a load of its "
-                  "own.");
-      const unsigned int group = face.group;
-      if (ground.is_rigid[group])
-        fail("Boundary", "meets a rigid block at " + at(a[0], a[1])
-                             + ", in which no waves run: make it deformable.");
-      if (ground.yields[group])
-        fail("Boundary", "meets ground of the law 'Mohr-Coulomb' at "
-                             + at(a[0], a[1])
-                             + ", but the column beside it is elastic: give "
-                               "the ground along the sides a material of its "
-                               "own with 'Law = linear elastic'.");
-      edges.push_back({ std::min(a[1], b[1]), std::max(a[1], b[1]), group });
+      std::sort(edges.begin(), edges.end(),
+                [](const SideEdge &a, const SideEdge &b)
+                { return a.bottom < b.bottom; });
+      return edges;
     }
-    std::sort(edges.begin(), edges.end(),
-              [](const Edge &a, const Edge &b) { return a.bottom < b.bottom; });
 
-    node_height.push_back(edges.front().bottom);
-    node_mass.assign(edges.size() + 1, 0.);
-    for (const Edge &edge : edges)
+    FreeFieldColumn<2> column_beside(const std::string &load, const double x,
+                                     const std::vector<SideEdge> &edges,
+                                     const FreeFieldGround &ground)
     {
-      const double height = edge.top - node_height.back();
-      if (std::abs(edge.bottom - node_height.back()) > same_share * height)
-        fail("Boundary", "has a gap between " + at(x, node_height.back())
-                             + " and " + at(x, edge.bottom)
-                             + ": the column needs all of the side.");
-      const LinearElastic &material = ground.materials[edge.group];
-      const double thickness        = ground.thickness[edge.group];
-      const double half = 0.5 * material.density * height * thickness;
-      node_mass[layers.size()] += half;
-      node_mass[layers.size() + 1] += half;
-      layers.push_back({ height, thickness, material.density,
-                         plane_stiffness(material, ground.plane) });
-      node_height.push_back(edge.top);
+      FreeFieldColumn<2> column(edges.front().bottom);
+      for (const SideEdge &edge : edges)
+      {
+        const double below  = column.heights().back();
+        const double height = edge.top - below;
+        if (std::abs(edge.bottom - below) > same_share * height)
+          fail_free_field(load, "Boundary",
+                          "has a gap between " + at(x, below) + " and "
+                              + at(x, edge.bottom)
+                              + ": the column needs all of the side.");
+        const LinearElastic &material = ground.materials[edge.group];
+        column.add_layer({ height, ground.thickness[edge.group],
+                           material.density,
+                           plane_stiffness(material, ground.plane) },
+                         edge.top);
+      }
+      return column;
     }
+
+    /** Impedance of the horizontal base for a column of the width 1. */
+    Impedance impedance_below(const std::string &load, const double x,
+                              const FreeFieldColumn<2> &column,
+                              const std::vector<BoundaryFace<2>> &base_faces,
+                              const FreeFieldBase &given)
+    {
+      const double foot = column.heights().front();
+      const double near = same_share * column.layer(0).height;
+      for (const BoundaryFace<2> &face : base_faces)
+      {
+        const auto &a = face.points[0];
+        const auto &b = face.points[1];
+        for (const auto &p : { a, b })
+        {
+          if (std::abs(p[0] - x) > near || std::abs(p[1] - foot) > near)
+            continue;
+          if (std::abs(a[1] - b[1]) > near)
+            fail_free_field(load, "Base",
+                            "is '" + given.load.name
+                                + "', which is not horizontal at " + at(x, foot)
+                                + ": waves would not propagate vertically from "
+                                  "it.");
+          return given.impedance[face.group];
+        }
+      }
+      fail_free_field(load, "Base",
+                      "is '" + given.load.name
+                          + "', which does not meet the foot of the "
+                            "side at "
+                          + at(x, foot)
+                          + ": it must be the load on the boundary below.");
+    }
+
+    /** Impedances below the nodes of the base, 0 where motion is prescribed;
+        where no side can stand, on faces that are not horizontal, none. */
+    std::map<FreeFieldGrid::Place, Impedance>
+    impedances_below(const std::vector<BoundaryFace<3>> &base_faces,
+                     const FreeFieldBase &given, const bool is_prescribed)
+    {
+      std::map<FreeFieldGrid::Place, Impedance> result;
+      for (const BoundaryFace<3> &face : base_faces)
+      {
+        const auto outward = outward_area(face.points);
+        if (std::hypot(outward[0], outward[1]) <= same_share * outward.norm())
+          for (const auto &p : face.points)
+            result.insert({ { { p[0], p[1], p[2] } },
+                            is_prescribed ? Impedance{ 0., 0. }
+                                          : given.impedance[face.group] });
+      }
+      return result;
+    }
+
+    /** Sorts @p faces by their places, which are the same on any number of
+        ranks. */
+    void sort_by_place(std::vector<BoundaryFace<3>> &faces)
+    {
+      const auto key = [](const BoundaryFace<3> &face)
+      {
+        std::array<FreeFieldGrid::Place, 3> places;
+        for (unsigned int k = 0; k < 3; ++k)
+          for (unsigned int d = 0; d < 3; ++d)
+            places[k][d] = face.points[k][d];
+        std::sort(places.begin(), places.end());
+        return places;
+      };
+      std::sort(faces.begin(), faces.end(),
+                [&](const BoundaryFace<3> &a, const BoundaryFace<3> &b)
+                { return key(a) < key(b); });
+    }
+
+    /** The faces of each vertical plane. */
+    std::vector<std::vector<BoundaryFace<3>>>
+    plane_sides(const std::string &load, std::vector<BoundaryFace<3>> faces)
+    {
+      sort_by_place(faces);
+      std::vector<std::vector<BoundaryFace<3>>> sides;
+      for (const BoundaryFace<3> &face : faces)
+      {
+        const auto outward = outward_area(face.points);
+        const double area  = outward.norm();
+        if (std::abs(outward[2]) > same_share * area)
+          fail_free_field(load, "Boundary",
+                          "must be vertical sides of the model, but has a face "
+                          "at "
+                              + at(face.points[0])
+                              + " that is not vertical: the ground beside it "
+                                "would not stand on the base.");
+        const auto is_in_line = [&](const std::vector<BoundaryFace<3>> &side)
+        {
+          const auto n = outward_area(side.front().points);
+          return (n / n.norm() - outward / area).norm() < same_share
+                 && std::abs((face.points[0] - side.front().points[0])
+                             * outward)
+                        < same_share * area * std::sqrt(area);
+        };
+        const auto found = std::find_if(sides.begin(), sides.end(), is_in_line);
+        if (found == sides.end())
+          sides.push_back({ face });
+        else
+          found->push_back(face);
+      }
+      return sides;
+    }
+  } // namespace
+
+  template <int dim>
+  FreeFieldBoundary<dim>::FreeFieldBoundary(const LoadParameters &parameters,
+                                            const NodeMap<dim> &node_map,
+                                            const FreeFieldGround &ground,
+                                            const FreeFieldBase &given)
+  {
+    this->load_name            = parameters.name;
+    this->own_traits.companion = given.load.name;
+    const auto faces
+        = faces_of_curves(node_map, parameters.boundaries, parameters.name);
+    const auto base_faces
+        = faces_of_curves(node_map, given.load.boundaries, given.load.name);
+    this->node_list    = nodes_of_faces(node_map, faces);
+    foot.is_prescribed = given.load.type == LoadType::prescribed_motion;
+    foot.components    = given.load.components;
+    make_sides(node_map, faces, base_faces, ground, given);
+
+    base_dashpots.resize(this->node_list.size());
+    if (!foot.is_prescribed)
+      add_dashpots(node_map, base_faces, given.impedance, ground.thickness,
+                   this->node_list, base_dashpots);
+    pull.resize(this->node_list.size());
+    for (const Dashpot<dim> &dashpot : base_dashpots)
+      damping.push_back(dashpot.damping);
+    for (const Side &side : side_list)
+      for (unsigned int i = 0; i < side.nodes.size(); ++i)
+        for (unsigned int k = 0; k < side.dashpots[i].damping.size(); ++k)
+          damping[side.nodes[i]][k] += side.dashpots[i].damping[k];
   }
 
-  unsigned int FreeFieldBoundary::node_at(const double height) const
+  // -- what is constant ------------------------------------------------------
+
+  template <>
+  void FreeFieldBoundary<2>::make_sides(
+      const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces,
+      const std::vector<BoundaryFace<2>> &base_faces,
+      const FreeFieldGround &ground, const FreeFieldBase &given)
   {
-    // The nearer of the nodes below and above.
-    const unsigned int above
-        = std::lower_bound(node_height.begin(), node_height.end() - 1, height)
-          - node_height.begin();
-    return above > 0
-                   && height - node_height[above - 1]
-                          < node_height[above] - height
-               ? above - 1
-               : above;
+    const double x            = faces.front().points[0][0];
+    FreeFieldColumn<2> column = column_beside(
+        load_name, x, edges_of_side(load_name, faces, ground), ground);
+    const Impedance z
+        = impedance_below(load_name, x, column, base_faces, given);
+    const double width = column.layer(0).thickness;
+    column.set_base(dealii::Point<2>(width * z.shear, width * z.normal));
+    tie(node_map, faces, ground, Side(std::move(column)));
   }
 
-  void FreeFieldBoundary::make_shares(const NodeMap<2> &node_map,
-                                      const std::vector<BoundaryFace<2>> &faces)
+  template <>
+  void FreeFieldBoundary<3>::make_sides(
+      const NodeMap<3> &node_map, const std::vector<BoundaryFace<3>> &faces,
+      const std::vector<BoundaryFace<3>> &base_faces,
+      const FreeFieldGround &ground, const FreeFieldBase &given)
   {
-    column_node.resize(node_list.size());
-    for (const BoundaryFace<2> &face : faces)
+    const auto below = impedances_below(base_faces, given, foot.is_prescribed);
+    for (const auto &side : plane_sides(load_name, faces))
+      tie(node_map, side, ground,
+          Side(FreeFieldGrid(load_name, side, ground, below, given.load.name)));
+  }
+
+  template <int dim>
+  void FreeFieldBoundary<dim>::tie(const NodeMap<dim> &node_map,
+                                   const std::vector<BoundaryFace<dim>> &faces,
+                                   const FreeFieldGround &ground, Side side)
+  {
+    std::vector<unsigned int> local = nodes_of_faces(node_map, faces);
+    for (const unsigned int node : local)
+      side.nodes.push_back(
+          std::lower_bound(this->node_list.begin(), this->node_list.end(), node)
+          - this->node_list.begin());
+    side.beside.resize(local.size());
+    for (unsigned int f = 0; f < faces.size(); ++f)
     {
-      const double bottom      = std::min(face.points[0][1], face.points[1][1]);
-      const unsigned int layer = node_at(bottom);
-      for (unsigned int k = 0; k < 2; ++k)
+      const BoundaryFace<dim> &face = faces[f];
+      unsigned int part             = f;
+      auto area                     = outward_area(face.points) / dim;
+      if constexpr (dim == 2)
+      {
+        part = side.ground.node_at(
+            std::min(face.points[0][1], face.points[1][1]));
+        const auto &layer = side.ground.layer(part);
+        area = dealii::Point<2>(0.5 * (area[0] > 0. ? 1. : -1.) * layer.height
+                                    * layer.thickness,
+                                0.);
+      }
+      for (unsigned int k = 0; k < dim; ++k)
       {
         const unsigned int v = face.nodes[k];
         if (!node_map.exchange().owns(v))
           continue;
-        const unsigned int node
-            = std::lower_bound(node_list.begin(), node_list.end(),
-                               node_map.exchange().local(v))
-              - node_list.begin();
-        column_node[node] = node_at(face.points[k][1]);
-        shares.push_back(
-            { node, layer,
-              0.5 * outward * layers[layer].height * layers[layer].thickness });
+        const unsigned int i = std::lower_bound(local.begin(), local.end(),
+                                                node_map.exchange().local(v))
+                               - local.begin();
+        if constexpr (dim == 2)
+          side.beside[i] = side.ground.node_at(face.points[k][1]);
+        else
+          side.beside[i] = side.ground.node_of(f, k);
+        side.shares.push_back({ side.nodes[i], part, area });
       }
     }
+    std::vector<Impedance> impedance;
+    for (const LinearElastic &material : ground.materials)
+      impedance.push_back(impedance_of(material, ground.plane));
+    side.dashpots.resize(local.size());
+    add_dashpots(node_map, faces, impedance, ground.thickness, local,
+                 side.dashpots);
+    side_list.push_back(std::move(side));
   }
 
-  std::vector<BoundaryFace<2>>
-  FreeFieldBoundary::make_foot(const NodeMap<2> &node_map,
-                               const FreeFieldBase &given)
+  template <int dim>
+  double FreeFieldBoundary<dim>::largest_eigenvalue() const
   {
-    base.name          = given.load.name;
-    base.is_prescribed = given.load.type == LoadType::prescribed_motion;
-    base.components    = given.load.components;
-    const auto faces
-        = faces_of_curves(node_map, given.load.boundaries, given.load.name);
-    const double foot = node_height.front();
-    const double near = same_share * layers.front().height;
-    for (const BoundaryFace<2> &face : faces)
-    {
-      const auto &a = face.points[0];
-      const auto &b = face.points[1];
-      for (const auto &p : { a, b })
-      {
-        if (std::abs(p[0] - x) > near || std::abs(p[1] - foot) > near)
-          continue;
-        if (std::abs(a[1] - b[1]) > near)
-          fail("Base", "is '" + base.name + "', which is not horizontal at "
-                           + at(x, foot)
-                           + ": waves would not propagate vertically from it.");
-        const Impedance &z = given.impedance[face.group];
-        const double width = layers.front().thickness;
-        base.impedance = dealii::Point<2>(width * z.shear, width * z.normal);
-        return faces;
-      }
-    }
-    fail("Base", "is '" + base.name
-                     + "', which does not meet the foot of the "
-                       "side at "
-                     + at(x, foot)
-                     + ": it must be the load on the boundary below.");
-  }
-
-  double FreeFieldBoundary::largest_eigenvalue() const
-  {
-    // omega^2 of one layer with half of its mass at either end.
     double largest = 0.;
-    for (const Layer &layer : layers)
-      largest = std::max(largest,
-                         4. * layer.stiffness.c11
-                             / (layer.density * layer.height * layer.height));
+    for (const Side &side : side_list)
+      largest = std::max(largest, side.ground.largest_eigenvalue());
     return largest;
   }
 
   // -- a step ----------------------------------------------------------------
 
-  void FreeFieldBoundary::prepare(State<2> &state) const
+  template <int dim>
+  void FreeFieldBoundary<dim>::prepare(State<dim> &state) const
   {
-    state.add<FreeFieldState>(load_name);
+    state.template add<FreeFieldState<dim>>(this->load_name);
   }
 
-  void FreeFieldBoundary::begin_stage(State<2> &state, const bool continues)
+  template <int dim>
+  void FreeFieldBoundary<dim>::begin_stage(State<dim> &state,
+                                           const bool continues)
   {
     if (!continues)
-      state.get<FreeFieldState>(load_name) = FreeFieldState();
+      state.template get<FreeFieldState<dim>>(this->load_name) = {};
   }
 
-  void FreeFieldBoundary::start(const std::vector<CapturedNode<2>> &captured,
-                                FreeFieldState &column)
+  template <int dim>
+  void
+  FreeFieldBoundary<dim>::start(const std::vector<CapturedNode<dim>> &captured,
+                                FreeFieldState<dim> &beside)
   {
-    column.active = true;
-    column.displacement.assign(2 * node_height.size(), 0.);
-    column.velocity = column.displacement;
-    for (const unsigned int c : captured_positions)
-      append_vector(column.held, captured[c].begun - captured[c].force);
+    unsigned int n = 0;
+    for (const Side &side : side_list)
+      n += side.ground.n_nodes();
+    beside.active = true;
+    beside.displacement.assign(dim * n, 0.);
+    beside.velocity = beside.displacement;
+    for (const unsigned int c : this->captured_positions)
+      append_vector<dim>(beside.held, captured[c].begun - captured[c].force);
   }
 
-  void FreeFieldBoundary::move_foot(const StepContext &step,
-                                    const double *unbalanced,
-                                    FreeFieldState &column) const
+  template <int dim>
+  void FreeFieldBoundary<dim>::correct(
+      const StepContext &step, const std::vector<CapturedNode<dim>> &captured,
+      State<dim> &state)
   {
-    const double h = 0.5 * step.dt_velocity, m = node_mass.front();
-    for (unsigned int d = 0; d < base.impedance.dimension; ++d)
-    {
-      const LoadComponent &given = base.components[d];
-      double &v                  = column.velocity[d];
-      if (base.is_prescribed && given.quantity != LoadQuantity::free)
-      {
-        v = given.quantity == LoadQuantity::velocity
-                ? given.value(step.middle)
-                : (given.value(step.end) - given.value(step.begin)) / step.dt;
-        continue;
-      }
-      // At the foot shear is along x, normal along y.
-      const double z = base.is_prescribed ? 0. : base.impedance[d];
-      const double incident
-          = base.is_prescribed ? 0. : base.components[1 - d].value(step.begin);
-      const double drag = h * (z + step.mass_damping * m);
-      v = ((m - drag) * v + 2. * h * (unbalanced[d] + 2. * z * incident))
-          / (m + drag);
-    }
-  }
+    auto &beside = state.template get<FreeFieldState<dim>>(this->load_name);
+    if (!beside.active)
+      start(captured, beside);
 
-  void FreeFieldBoundary::advance(const StepContext &step,
-                                  FreeFieldState &column)
-  {
-    const auto &u = column.displacement;
-    auto &v       = column.velocity;
-    std::fill(force.begin(), force.end(), 0.);
-    for (unsigned int e = 0; e < layers.size(); ++e)
-    {
-      const Layer &layer = layers[e];
-      // Shear and vertical strain.
-      const dealii::Tensor<1, 2> strain
-          = (vector_at(u, e + 1) - vector_at(u, e)
-             + step.stiffness_damping * (vector_at(v, e + 1) - vector_at(v, e)))
-            / layer.height;
-      const dealii::Point<2> stress(layer.stiffness.c33 * strain[0],
-                                    layer.stiffness.c11 * strain[1]);
-      traction[e]
-          = dealii::Point<2>(layer.stiffness.c12 * strain[1], stress[0]);
-      add_to_vector(force, e, layer.thickness * stress);
-      add_to_vector(force, e + 1, -layer.thickness * stress);
-    }
-
-    mean_velocity  = v;
-    const double a = 0.5 * step.dt_velocity * step.mass_damping;
-    for (unsigned int i = 2; i < v.size(); ++i)
-      v[i] = ((1. - a) * v[i] + step.dt_velocity * force[i] / node_mass[i / 2])
-             / (1. + a);
-    move_foot(step, force.data(), column);
-    for (unsigned int i = 0; i < v.size(); ++i)
-    {
-      mean_velocity[i] = 0.5 * (mean_velocity[i] + v[i]);
-      column.displacement[i] += step.dt * v[i];
-    }
-  }
-
-  void FreeFieldBoundary::correct(const StepContext &step,
-                                  const std::vector<CapturedNode<2>> &captured,
-                                  State<2> &state)
-  {
-    FreeFieldState &column = state.get<FreeFieldState>(load_name);
-    if (!column.active)
-      start(captured, column);
-    advance(step, column);
-
-    const double vn
-        = base.is_prescribed ? 0. : base.components[0].value(step.begin);
-    const double vs
-        = base.is_prescribed ? 0. : base.components[1].value(step.begin);
+    std::array<double, 3> incident{};
+    if (!foot.is_prescribed)
+      incident = component_values(foot.components, step.begin);
     for (unsigned int i = 0; i < pull.size(); ++i)
+      pull[i]
+          = base_dashpots[i].pull(incident) + vector_at<dim>(beside.held, i);
+    std::size_t first = 0;
+    for (Side &side : side_list)
     {
-      const auto v = vector_at(mean_velocity, column_node[i]);
-      pull[i]      = base_dashpots[i].pull(vn, vs) + vector_at(column.held, i);
-      for (unsigned int d = 0; d < v.dimension; ++d)
-        pull[i][d] += side_dashpots[i].damping[d] * v[d];
+      side.ground.advance(step, foot, beside.displacement.data() + first,
+                          beside.velocity.data() + first);
+      first += dim * side.ground.n_nodes();
+      for (unsigned int i = 0; i < side.nodes.size(); ++i)
+        side.dashpots[i].add_drag(side.ground.velocity(side.beside[i]),
+                                  pull[side.nodes[i]]);
+      for (const typename Side::Share &share : side.shares)
+        side.ground.add_force(share.part, share.area, pull[share.node]);
     }
-    for (const Share &share : shares)
-      pull[share.node] += share.area * traction[share.layer];
     for (unsigned int i = 0; i < pull.size(); ++i)
-      move_with_dashpot(step, captured[captured_positions[i]], damping[i],
+      move_with_dashpot(step, captured[this->captured_positions[i]], damping[i],
                         pull[i], state);
   }
 
-  void FreeFieldBoundary::account(const StepContext &step,
-                                  const std::vector<CapturedNode<2>> &captured,
-                                  State<2> &state)
+  template <int dim>
+  void FreeFieldBoundary<dim>::account(
+      const StepContext &step, const std::vector<CapturedNode<dim>> &captured,
+      State<dim> &state)
   {
-    last_resultant = {};
+    this->last_resultant = {};
     for (unsigned int i = 0; i < pull.size(); ++i)
-      account_for_dashpot(step, captured[captured_positions[i]], damping[i],
-                          pull[i], this, last_resultant, state);
+      account_for_dashpot(step, captured[this->captured_positions[i]],
+                          damping[i], pull[i], this, this->last_resultant,
+                          state);
   }
+
+  template class FreeFieldBoundary<2>;
+  template class FreeFieldBoundary<3>;
 } // namespace quoin

@@ -54,7 +54,9 @@ namespace quoin
                  { "Lateral", "m/s^2" } };
       case LoadType::viscous_boundary:
         return { { "Incident normal velocity", "" },
-                 { "Incident shear velocity", "" } };
+                 { "Incident shear velocity", "" },
+                 {},
+                 { "Incident lateral velocity", "" } };
       case LoadType::prescribed_motion:
       case LoadType::platen:
         return { { "Horizontal", "N" },
@@ -112,6 +114,7 @@ namespace quoin
             { "Moving axis", "x", { "traction" } },
             { "Incident normal velocity", "0", viscous },
             { "Incident shear velocity", "0", viscous },
+            { "Incident lateral velocity", "0", viscous },
             { "Far field material", "", viscous },
             { "Base", "", { "free-field boundary" } },
             { "Stress", "0, 0, 0", initial },
@@ -196,8 +199,11 @@ namespace quoin
   LoadParameters LoadParameters::along_axes<2>() const
   {
     if (lateral.quantity != LoadQuantity::free)
-      throw InputError("section 'Loads/" + name
-                       + "': 'Lateral' is along the third axis, which a model "
+      throw InputError("section 'Loads/" + name + "': '"
+                       + (type == LoadType::viscous_boundary
+                              ? "Incident lateral velocity"
+                              : "Lateral")
+                       + "' is along the third axis, which a model "
                          "in two dimensions does not have. Remove it, or take "
                          "a mesh of tetrahedra.");
     for (const unsigned int d : { 0, 1 })
@@ -223,6 +229,8 @@ namespace quoin
       result.components = { components[0], lateral, components[1] };
     if (type == LoadType::platen)
       result.rotations[2] = components[2];
+    if (type == LoadType::viscous_boundary)
+      result.components[2] = lateral;
     return result;
   }
 
@@ -498,15 +506,19 @@ namespace quoin
     {
       if (entries.reads_if(load.type == LoadType::viscous_boundary))
       {
-        const std::string names[] = { "normal", "shear" };
-        for (const unsigned int d : { 0, 1 })
+        const std::string names[] = { "normal", "shear", "lateral" };
+        LoadComponent *const parts[]
+            = { &load.components[0], &load.components[1], &load.lateral };
+        const std::string ways[]
+            = { "along the inward normal",
+                "along the boundary with the block on its left, in three "
+                "dimensions of an S wave along x, for which the boundary is "
+                "horizontal",
+                "in three dimensions of an S wave along y" };
+        for (const unsigned int d : { 0, 1, 2 })
           enter_component(
-              entries, "Incident " + names[d] + " velocity", "0",
-              load.components[d],
-              std::string(
-                  "Velocity of the wave incident on a viscous boundary, ")
-                  + (d == 0 ? "along the inward normal"
-                            : "along the boundary with the block on its left")
+              entries, "Incident " + names[d] + " velocity", "0", *parts[d],
+              "Velocity of the wave incident on a viscous boundary, " + ways[d]
                   + ", as a function of time [m/s]",
               [](const ParameterSection &section, const std::string &name)
               {

@@ -31,25 +31,6 @@ namespace quoin
       return Vector({ arms[3 * i], arms[3 * i + 1], arms[3 * i + 2] });
     }
 
-    Matrix rotation_of(const SpacePlatenState &platen)
-    {
-      Matrix result;
-      for (unsigned int d = 0; d < 3; ++d)
-        for (unsigned int e = 0; e < 3; ++e)
-          result[d][e] = platen.rotation[3 * d + e];
-      return result;
-    }
-
-    /** The rotation by the angle |@p turn| about @p turn. */
-    Matrix rotation_by(const Vector &turn)
-    {
-      const double angle = turn.norm();
-      if (angle == 0.)
-        return dealii::unit_symmetric_tensor<3>();
-      return dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
-          turn / angle, angle);
-    }
-
     /** What @p mass at @p arm adds to a tensor of inertia. */
     Matrix inertia_of(const double mass, const Vector &arm)
     {
@@ -59,6 +40,44 @@ namespace quoin
       return result;
     }
   } // namespace
+
+  dealii::Tensor<2, 3> rotation_of(const SpacePlatenState &platen)
+  {
+    Matrix result;
+    for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int e = 0; e < 3; ++e)
+        result[d][e] = platen.rotation[3 * d + e];
+    return result;
+  }
+
+  void set_rotation(const dealii::Tensor<2, 3> &rotation,
+                    SpacePlatenState &platen)
+  {
+    for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int e = 0; e < 3; ++e)
+        platen.rotation[3 * d + e] = rotation[d][e];
+  }
+
+  dealii::Tensor<2, 3> rotation_by(const dealii::Tensor<1, 3> &turn)
+  {
+    const double angle = turn.norm();
+    if (angle == 0.)
+      return dealii::unit_symmetric_tensor<3>();
+    return dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+        turn / angle, angle);
+  }
+
+  dealii::Tensor<1, 3> turn_of(const dealii::Tensor<2, 3> &rotation)
+  {
+    const Vector axis = 0.5
+                        * Vector({ rotation[2][1] - rotation[1][2],
+                                   rotation[0][2] - rotation[2][0],
+                                   rotation[1][0] - rotation[0][1] });
+    const double sine = axis.norm();
+    return sine == 0.
+               ? axis
+               : std::atan2(sine, 0.5 * (trace(rotation) - 1.)) / sine * axis;
+  }
 
   SpacePlaten::SpacePlaten(const LoadParameters &parameters,
                            const NodeMap<3> &node_map)
@@ -286,9 +305,7 @@ namespace quoin
 
     const Vector rate  = half_of(platen.velocity, 3);
     const Matrix after = rotation_by(step.dt * rate) * before;
-    for (unsigned int d = 0; d < 3; ++d)
-      for (unsigned int e = 0; e < 3; ++e)
-        platen.rotation[3 * d + e] = after[d][e];
+    set_rotation(after, platen);
     const Vector moved = platen.centre + half_of(platen.displacement, 0);
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {

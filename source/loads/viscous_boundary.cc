@@ -3,6 +3,7 @@
 
 #include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 #include <quoin/operators/archive.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
@@ -56,6 +57,53 @@ namespace quoin
           = full.llt().solve(Eigen::Vector3d(b[0], b[1], b[2]));
       return dealii::Point<3>(x[0], x[1], x[2]);
     }
+    /** Adds the dashpot of @p zn, @p zs [N s/m] across and along an area with
+        the outward normal @p n. */
+    template <int dim>
+    void add_dashpot(const dealii::Tensor<1, dim> &n, const double zn,
+                     const double zs, Dashpot<dim> &dashpot)
+    {
+      unsigned int k = dim;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        dashpot.damping[d] += zn * n[d] * n[d] + zs * (1. - n[d] * n[d]);
+        for (unsigned int e = d + 1; e < dim; ++e)
+          dashpot.damping[k++] += (zn - zs) * n[d] * n[e];
+        dashpot.normal[d] -= 2. * zn * n[d];
+      }
+      if constexpr (dim == 2)
+      {
+        dashpot.shear[0] -= 2. * zs * n[1];
+        dashpot.shear[1] += 2. * zs * n[0];
+      }
+      else
+      {
+        dashpot.shear[0] += 2. * zs;
+        dashpot.lateral[1] += 2. * zs;
+      }
+    }
+
+    /** Throws an InputError if a face is not horizontal. */
+    void refuse_inclined(const std::vector<BoundaryFace<3>> &faces,
+                         const std::string &load)
+    {
+      for (const BoundaryFace<3> &face : faces)
+      {
+        const auto outward = outward_area(face.points);
+        if (std::hypot(outward[0], outward[1]) <= 1e-6 * outward.norm())
+          continue;
+        const auto &at = face.points[0];
+        throw InputError(text_of(
+            "section 'Loads/", load,
+            "': 'Incident shear velocity' and 'Incident lateral velocity' are "
+            "those of S waves that rise vertically, along x and y, but the "
+            "boundary is not horizontal at (",
+            at[0], ", ", at[1], ", ", at[2],
+            ") m. Give them on a horizontal base, or a load with 'Type = "
+            "traction' on the same boundary, half of which goes into the "
+            "blocks."));
+      }
+    }
   } // namespace
 
   Impedance impedance_of(const LinearElastic &material,
@@ -64,6 +112,30 @@ namespace quoin
     const PlaneStiffness stiffness = plane_stiffness(material, assumption);
     return { std::sqrt(material.density * stiffness.c11),
              std::sqrt(material.density * stiffness.c33) };
+  }
+
+  template <int dim>
+  void Dashpot<dim>::add_drag(const dealii::Tensor<1, dim> &v,
+                              dealii::Tensor<1, dim> &force) const
+  {
+    unsigned int k = dim;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      force[d] += damping[d] * v[d];
+      for (unsigned int e = d + 1; e < dim; ++e, ++k)
+      {
+        force[d] += damping[k] * v[e];
+        force[e] += damping[k] * v[d];
+      }
+    }
+  }
+
+  template <int dim>
+  void Dashpot<dim>::add(const dealii::Tensor<1, dim> &outward,
+                         const Impedance &z)
+  {
+    const double area = outward.norm();
+    add_dashpot<dim>(outward / area, z.normal * area, z.shear * area, *this);
   }
 
   template <int dim>
@@ -88,23 +160,27 @@ namespace quoin
                                             node_map.exchange().local(v));
         if (found == nodes.end() || *found != node_map.exchange().local(v))
           continue;
-        Dashpot<dim> &dashpot = dashpots[found - nodes.begin()];
-        const double zn = z.normal * share, zs = z.shear * share;
-        unsigned int k = dim;
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          dashpot.damping[d] += zn * n[d] * n[d] + zs * (1. - n[d] * n[d]);
-          for (unsigned int e = d + 1; e < dim; ++e)
-            dashpot.damping[k++] += (zn - zs) * n[d] * n[e];
-          dashpot.normal[d] -= 2. * zn * n[d];
-        }
-        if constexpr (dim == 2)
-        {
-          dashpot.shear[0] -= 2. * zs * n[1];
-          dashpot.shear[1] += 2. * zs * n[0];
-        }
+        add_dashpot(n, z.normal * share, z.shear * share,
+                    dashpots[found - nodes.begin()]);
       }
     }
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  velocity_with_dashpot(const StepContext &step, const double m,
+                        const dealii::Tensor<1, dim> &velocity,
+                        const typename Dashpot<dim>::Damping &damping,
+                        const dealii::Tensor<1, dim> &force)
+  {
+    const double h  = 0.5 * step.dt_velocity;
+    const double a  = h * step.mass_damping * m;
+    const auto drag = product<dim>(damping, velocity);
+    const auto b    = (m - a) * velocity - h * drag + 2. * h * force;
+    auto matrix     = damping;
+    for (unsigned int k = 0; k < matrix.size(); ++k)
+      matrix[k] = h * damping[k] + (k < dim ? m + a : 0.);
+    return solve(matrix, b);
   }
 
   template <int dim>
@@ -113,17 +189,10 @@ namespace quoin
                          const typename Dashpot<dim>::Damping &damping,
                          const dealii::Tensor<1, dim> &pull, State<dim> &state)
   {
-    const double h = 0.5 * step.dt_velocity, m = before.mass;
-    const double a  = h * step.mass_damping * m;
-    const auto drag = product<dim>(damping, before.velocity);
-    const auto b
-        = (m - a) * before.velocity - h * drag + 2. * h * (before.force + pull);
-    auto matrix = damping;
-    for (unsigned int k = 0; k < matrix.size(); ++k)
-      matrix[k] = h * damping[k] + (k < dim ? m + a : 0.);
     dealii::Tensor<1, dim> &after = state.velocity[before.node];
-    after                         = solve(matrix, b);
-    state.nodes[before.node].u    = before.displacement + step.dt * after;
+    after = velocity_with_dashpot<dim>(step, before.mass, before.velocity,
+                                       damping, before.force + pull);
+    state.nodes[before.node].u = before.displacement + step.dt * after;
   }
 
   template <int dim>
@@ -167,15 +236,12 @@ namespace quoin
     : components(parameters.components)
   {
     this->load_name = parameters.name;
-    if (dim == 3 && components[1].quantity != LoadQuantity::free)
-      throw InputError(
-          "section 'Loads/" + this->load_name
-          + "': 'Incident shear velocity' has no direction on a "
-            "surface. In three dimensions let an S wave come in by "
-            "a load with 'Type = traction' on the same boundary: "
-            "half of it goes into the blocks.");
     const auto faces
         = faces_of_curves(node_map, parameters.boundaries, this->load_name);
+    if constexpr (dim == 3)
+      if (components[1].quantity != LoadQuantity::free
+          || components[2].quantity != LoadQuantity::free)
+        refuse_inclined(faces, this->load_name);
     this->node_list = nodes_of_faces(node_map, faces);
     dashpots.resize(this->node_list.size());
     add_dashpots(node_map, faces, impedance, thickness, this->node_list,
@@ -211,11 +277,11 @@ namespace quoin
 
   template <int dim>
   dealii::Tensor<1, dim>
-  ViscousBoundary<dim>::pull(const unsigned int i, const double vn,
-                             const double vs,
+  ViscousBoundary<dim>::pull(const unsigned int i,
+                             const std::array<double, 3> &incident,
                              const ViscousBoundaryState<dim> &own) const
   {
-    dealii::Tensor<1, dim> result = dashpots[i].pull(vn, vs);
+    dealii::Tensor<1, dim> result = dashpots[i].pull(incident);
     if (!own.held.empty())
       for (unsigned int d = 0; d < dim; ++d)
         result[d] += own.held[dim * i + d];
@@ -228,14 +294,14 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const auto [vn, vs, unused] = component_values(components, step.begin);
+    const auto incident = component_values(components, step.begin);
     ViscousBoundaryState<dim> &own
         = state.template get<ViscousBoundaryState<dim>>(this->load_name);
     if (!own.active)
       hold(captured, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       move_with_dashpot(step, captured[this->captured_positions[i]],
-                        dashpots[i].damping, pull(i, vn, vs, own), state);
+                        dashpots[i].damping, pull(i, incident, own), state);
   }
 
   template <int dim>
@@ -244,24 +310,26 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const auto [vn, vs, unused] = component_values(components, step.begin);
+    const auto incident = component_values(components, step.begin);
     const ViscousBoundaryState<dim> &own
         = state.template get<ViscousBoundaryState<dim>>(this->load_name);
     this->last_resultant = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       account_for_dashpot(step, captured[this->captured_positions[i]],
-                          dashpots[i].damping, pull(i, vn, vs, own), this,
+                          dashpots[i].damping, pull(i, incident, own), this,
                           this->last_resultant, state);
   }
 
+  template struct Dashpot<2>;
   template class ViscousBoundary<2>;
-
-  template class ViscousBoundary<3>;
   template void add_dashpots(const NodeMap<2> &,
                              const std::vector<BoundaryFace<2>> &,
                              const std::vector<Impedance> &, const Thickness &,
                              const std::vector<unsigned int> &,
                              std::vector<Dashpot<2>> &);
+  template dealii::Tensor<1, 2> velocity_with_dashpot(
+      const StepContext &, double, const dealii::Tensor<1, 2> &,
+      const Dashpot<2>::Damping &, const dealii::Tensor<1, 2> &);
   template void move_with_dashpot(const StepContext &, const CapturedNode<2> &,
                                   const Dashpot<2>::Damping &,
                                   const dealii::Tensor<1, 2> &, State<2> &);
@@ -271,4 +339,23 @@ namespace quoin
                                     const dealii::Tensor<1, 2> &,
                                     const MotionConstraint<2> *,
                                     std::array<double, 3> &, State<2> &);
+  template struct Dashpot<3>;
+  template class ViscousBoundary<3>;
+  template void add_dashpots(const NodeMap<3> &,
+                             const std::vector<BoundaryFace<3>> &,
+                             const std::vector<Impedance> &, const Thickness &,
+                             const std::vector<unsigned int> &,
+                             std::vector<Dashpot<3>> &);
+  template dealii::Tensor<1, 3> velocity_with_dashpot(
+      const StepContext &, double, const dealii::Tensor<1, 3> &,
+      const Dashpot<3>::Damping &, const dealii::Tensor<1, 3> &);
+  template void move_with_dashpot(const StepContext &, const CapturedNode<3> &,
+                                  const Dashpot<3>::Damping &,
+                                  const dealii::Tensor<1, 3> &, State<3> &);
+  template void account_for_dashpot(const StepContext &,
+                                    const CapturedNode<3> &,
+                                    const Dashpot<3>::Damping &,
+                                    const dealii::Tensor<1, 3> &,
+                                    const MotionConstraint<3> *,
+                                    std::array<double, 3> &, State<3> &);
 } // namespace quoin

@@ -55,7 +55,8 @@ namespace quoin
     return slowest;
   }
 
-  FreeFieldGround free_field_ground(const Model<2> &model)
+  template <int dim>
+  FreeFieldGround free_field_ground(const Model<dim> &model)
   {
     FreeFieldGround ground;
     for (const unsigned int m : model.properties().material_of_group)
@@ -76,4 +77,6 @@ namespace quoin
   template std::vector<Impedance> impedance_beyond(const Model<3> &,
                                                    const LoadParameters &);
   template double slowest_shear_wave(const Model<3> &);
+  template FreeFieldGround free_field_ground(const Model<2> &);
+  template FreeFieldGround free_field_ground(const Model<3> &);
 } // namespace quoin

@@ -64,17 +64,11 @@ namespace quoin
       for (const LoadParameters &load : parameters.loads)
       {
         const std::string section = "section 'Loads/" + load.name + "': ";
-        if (load.type == LoadType::platen && parameters.is_implicit)
-          throw InputError(parameters.file + ", " + section
-                           + "a platen in three dimensions is one of the "
-                             "explicit solver. Take 'Solver = explicit', or "
-                             "'Type = prescribed motion'.");
-        refusals.refuse_if(load.type == LoadType::free_field
-                               || load.type == LoadType::boundary_elements,
+        refusals.refuse_if(load.type == LoadType::boundary_elements,
                            section + "'Type = " + load.type_text() + "'",
                            "Take 'prescribed motion', 'platen', 'traction', "
-                           "'gravity', 'initial stress', 'in-situ stress' or "
-                           "'viscous boundary'.");
+                           "'gravity', 'initial stress', 'in-situ stress', "
+                           "'viscous boundary' or 'free-field boundary'.");
       }
     }
   } // namespace

@@ -507,8 +507,7 @@ namespace quoin
       const HistoryParameters &wanted = probes[i].parameters;
       if (wanted.quantity == HistoryQuantity::platen_force
           && wanted.component >= 3)
-        result[1 + i]
-            = probes[i].platen->rigid_motion()->moments()[wanted.component - 3];
+        result[1 + i] = solver.moments(*probes[i].platen)[wanted.component - 3];
       else if (wanted.quantity == HistoryQuantity::reaction
                || wanted.quantity == HistoryQuantity::platen_force)
         result[1 + i] = solver.resultant(wanted.load)[wanted.component];

@@ -60,6 +60,16 @@ def energy_residual(case, folder, output, histories):
     return {"energy residual": residual_of(energies(output))}
 
 
+def radiated_energy(case, folder, output, histories):
+    """Energy of the blocks at the time "by", when all waves of a pulse have left
+    the model, by that which the pulse gave away; and the residual."""
+    table = energies(output)
+    stays = np.interp(case["by"], table["time"],
+                      table["kinetic"] + table["strain"])
+    return {"energy that stays": float(stays / table["external"][-1]),
+            "energy residual": residual_of(table)}
+
+
 def cable_bond(case, folder, output, histories):
     """Of a bar half way out of its grout, in cables.pvd: how far the bond has
     slipped there, by the reference, as a share of its length. And the residual

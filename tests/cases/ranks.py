@@ -71,6 +71,7 @@ COLLAPSING = ["Materials/block/Law=linear elastic",
               "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 BARS = os.path.join(common.ROOT, "tests", "cases", "bars.prm")
 PLATENS = os.path.join(common.VERIFICATION, "space_platens", "case.prm")
+TURNING = os.path.join(common.VERIFICATION, "space_platens", "turning.prm")
 PRESSED = ["Stages/load/End=time", "Stages/load/Duration=5e-3",
            "Stages/load/Damping=none", "Histories/Interval=1e-4",
            "Loads/load/Horizontal=force 1e6", "Loads/load/Lateral=force -6e5",
@@ -134,6 +135,11 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                             "Joints/bed/Shear stiffness=1e11",
                             "Initial motion/Velocity=1e-3*exp(-(x*x+(y+8)^2));"
                             " 0"]),
+            # grids in each rank beside a block in several ones
+            "space, free field": (os.path.join(
+                common.VERIFICATION, "space_free_field_sides", "case.prm"),
+                ["Stages/shake/Duration=0.01",
+                 "Initial motion/Velocity=1e-3*exp(-(x*x+(z+8)^2)); 0; 0"]),
             # a block in several ranks, with free fields and dashpots
             "divided": (os.path.join(common.VERIFICATION, "free_field_sides",
                                      "case.prm"),
@@ -205,6 +211,13 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                "Output/Field interval=0.1"]),
             # two platens in space, one free
             "space, platen": (PLATENS, PRESSED),
+            "implicit, space, platen": (
+                PLATENS, PRESSED + ["Solver=implicit",
+                                    "Implicit/Force ratio=1e-11"]),
+            # a bar that turns with the platens at its ends
+            "implicit, turning": (TURNING, ["Loads/cap/Vertical=force 1e7*T",
+                                            "Loads/cap/Lateral=force 1e6*T",
+                                            "Implicit/Force ratio=1e-9"]),
             # rock joints that remember more, by both solvers
             "space, rock joint": (ROUGH, ["Stages/shear/Duration=0.3"]),
             "implicit, space, rock joint": (

@@ -40,6 +40,10 @@ CASES = {
                    ["Output/Checkpoint interval=0.05",
                     "Stages/shake/Duration=2",
                     "Initial motion/Velocity=1e-3*exp(-x*x); 0"], 1, 2),
+    # grids beside a block of tetrahedra
+    "space, free field": (os.path.join(
+        common.VERIFICATION, "space_free_field_sides", "case.prm"),
+        ["Output/Checkpoint interval=0.05"], 2, 2),
     # tetrahedra and dashpots
     "space": (os.path.join(common.VERIFICATION, "space_waves", "s.prm"),
               ["Output/Checkpoint interval=0.02"], 2, 2),

@@ -18,3 +18,5 @@ Physical Surface("middle") = {low[0]};
 Physical Surface("top") = {high[0]};
 Physical Volume("low") = {low[1]};
 Physical Volume("high") = {high[1]};
+Physical Surface("south") = {low[2], high[2]};
+Physical Surface("east") = {low[3], high[3]};

@@ -27,17 +27,18 @@ namespace quoin
    * The degrees of freedom of a stage in equilibrium and their constraints.
    *
    * Component d of the displacement of node g of NodeMap::dof_handler() has
-   * the number dim g + d. Four for each body, a platen or a rigid block, come
-   * after those of the nodes: displacement x and y of its centre, rotation,
-   * and one that is always zero, so that all come in pairs. Bodies belong to
-   * two dimensions.
+   * the number dim g + d. Those of each body, a platen or a rigid block, come
+   * after those of the nodes. Four in two dimensions: displacement x and y of
+   * its centre, rotation, and one that is always zero, so that all come in
+   * pairs. Six in three: displacement and the rotations about the axes.
    *
    * The last one is the factor of a load pattern, if the stage has one.
    *
    * Nodes that a load moves and nodes of absent blocks are constrained to
    * prescribed values; nodes of a body follow its degrees of freedom rigidly
    * through any rotation, u = d + (R - I) r, in constraints() by their present
-   * arms: du = dd + dtheta x (R r).
+   * arms: du = dd + dtheta x (R r). In three dimensions an increment dtheta
+   * turns R into exp(dtheta x) R.
    */
   template <int dim>
   class DofMap
@@ -156,10 +157,14 @@ namespace quoin
           given; /**< whether prescribed, if there is no body */
     };
 
+    static constexpr unsigned int dofs_per_body = dim == 2 ? 4 : 6;
+
     void add_platens(const std::vector<MotionConstraint<dim> *> &constraints,
                      const State<dim> &state);
     void add_rigid_blocks(const std::vector<bool> &held);
     void number(bool has_factor);
+    /** Adds the constraints of a node of a body. */
+    void add_tie(unsigned int node);
     /** Increment of component @p d of a driven body [m or rad]. */
     double given_motion(const RigidBody<dim> &body, unsigned int d, double from,
                         double to) const;
@@ -180,10 +185,7 @@ namespace quoin
     Constraints affine;
   };
 
-  // Bodies belong to two dimensions.
-  template <>
-  void DofMap<2>::add_platens(const std::vector<MotionConstraint<2> *> &,
-                              const State<2> &);
+  // Rigid blocks belong to two dimensions.
   template <>
   void DofMap<2>::add_rigid_blocks(const std::vector<bool> &);
 

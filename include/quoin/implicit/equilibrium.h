@@ -28,7 +28,7 @@ namespace quoin
     AlignedArray<dealii::Tensor<1, dim>>
         external; /**< of loads, part of it [N] */
     /** Drives of bodies and held forces, besides those on nodes [N, N m]. */
-    std::vector<std::array<double, 3>> drives, held;
+    BodyValues<dim> drives, held;
     AlignedArray<dealii::Tensor<1, dim>>
         drag;               /**< against the motion, not in force [N] */
     double unbalanced = 0.; /**< with drag, sum over all components [N] */
@@ -89,7 +89,7 @@ namespace quoin
    *     c \cdot \Delta u = \hat w(t) - w , @f]
    * in one matrix, which is regular also at a limit load, where K is not.
    *
-   * Boundary elements, beams and bodies belong to two dimensions.
+   * Boundary elements and beams belong to two dimensions.
    */
   template <int dim>
   class Equilibrium
@@ -204,7 +204,10 @@ namespace quoin
                        const Configuration<dim> &configuration,
                        Balance<dim> &balance, const Slopes *slopes);
     void fill_unused_rows();
-    void add_turning(const AlignedArray<dealii::Tensor<1, dim>> &force);
+    /** Adds the change of moments by the turn of the arms to the matrix and,
+        by prescribed rotations, to @p by_advance. */
+    void add_turning(const AlignedArray<dealii::Tensor<1, dim>> &force,
+                     DofVector &by_advance);
 
     const Model<dim> &model;
     DofMap<dim> &dof_map;
@@ -267,9 +270,6 @@ namespace quoin
   void Equilibrium<2>::add_far_field(const State<2> &committed,
                                      const Configuration<2> &configuration,
                                      Balance<2> &balance, const Slopes *slopes);
-  template <>
-  void
-  Equilibrium<2>::add_turning(const AlignedArray<dealii::Tensor<1, 2>> &force);
 } // namespace quoin
 
 #endif

@@ -19,7 +19,7 @@ namespace quoin
 
     unsigned int dim = 2; /**< components of the forces on a node */
     /** Unbalanced forces at the start of the stage, the components of owned
-        nodes, three of each platen and of each rigid block of this rank
+        nodes, those of each platen and of each rigid block of this rank
         [N, N m]; empty: none. */
     std::vector<double> held, held_platens, held_blocks;
     double released  = 1.; /**< released share of them [-] */

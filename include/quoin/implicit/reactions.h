@@ -24,6 +24,14 @@ namespace quoin
                  const Configuration<dim> &configuration,
                  const Balance<dim> &balance, EnergyAccounts &energy);
 
+  /** Forces [N] and moments [N m] that drive or load @p platen, of all ranks.
+      Collective. */
+  template <int dim>
+  std::array<double, n_body_motions<dim>>
+  platen_drive(const Model<dim> &model, const DofMap<dim> &dof_map,
+               const Balance<dim> &balance,
+               const MotionConstraint<dim> &platen);
+
   /** Force x, y [N] and moment [N m] of @p constraint, as
       MotionConstraint::resultant(), of all ranks; @p far_field: that of the
       solver, or null. Collective. */

@@ -15,15 +15,20 @@
 
 namespace quoin
 {
-  /** A platen or a rigid block in equilibrium; see DofMap. There are none in
-      three dimensions. */
+  /** Number of motions of a rigid body: along the axes, and rotations. */
+  template <int dim>
+  constexpr unsigned int n_body_motions = dim *(dim + 1) / 2;
+
+  /** A platen or a rigid block in equilibrium; see DofMap. In three dimensions
+      there are platens alone. */
   template <int dim>
   struct RigidBody
   {
     const MotionConstraint<dim> *platen; /**< null: a rigid block */
     unsigned int rigid_block;
     dealii::Tensor<1, dim> centre; /**< centre at zero displacement [m] */
-    std::array<bool, 3> given;     /**< prescribed by functions of time */
+    /** Which of its motions functions of time prescribe. */
+    std::array<bool, n_body_motions<dim>> given;
     /** First of its degrees of freedom. */
     dealii::types::global_dof_index first;
     std::vector<unsigned int> nodes;                  /**< owned ones */
@@ -36,15 +41,21 @@ namespace quoin
   template <int dim>
   using RigidBodies = std::vector<RigidBody<dim>>;
 
-  /** Force x, y [N] and moment [N m], or motion, of each body. */
-  using BodyValues = std::vector<std::array<double, 3>>;
+  /** Force x, y [N] and moment [N m], or motion, of each body; in three
+      dimensions x, y, z, and about these axes. */
+  template <int dim>
+  using BodyValues = std::vector<std::array<double, n_body_motions<dim>>>;
 
   /** A configuration of the model: State without internal variables. */
   template <int dim>
   struct Configuration
   {
     AlignedArray<NodeRecord<dim>> nodes;
-    BodyValues bodies;     /**< x, y [m] and rotation [rad] */
+    /** Displacements [m] and rotation [rad]; in three dimensions the integrals
+        of the rates of rotation. */
+    BodyValues<dim> bodies;
+    /** Rotations of bodies in three dimensions since they first acted. */
+    std::vector<dealii::Tensor<2, 3>> turned;
     double load_time = 0.; /**< load time in the stage [s] */
     double released  = 1.; /**< released share of the held forces [-] */
     double factor    = 0.; /**< load factor of the load pattern [-] */
@@ -58,6 +69,11 @@ namespace quoin
   void write_configuration(const RigidBodies<dim> &bodies,
                            const Configuration<dim> &configuration,
                            State<dim> &state);
+  /** The function of time, or load, of motion @p d of a platen. */
+  template <int dim>
+  const LoadComponent &body_component(const MotionConstraint<dim> &platen,
+                                      unsigned int d);
+
   /** Places the nodes of this rank by the motion of their bodies. */
   template <int dim>
   void place_nodes(const RigidBodies<dim> &bodies,
@@ -65,19 +81,20 @@ namespace quoin
 
   /** Sums the @p values of platens over all ranks. */
   template <int dim>
-  void sum_of_platens(const RigidBodies<dim> &bodies, BodyValues &values,
+  void sum_of_platens(const RigidBodies<dim> &bodies, BodyValues<dim> &values,
                       MPI_Comm communicator);
 
   /** Force and moment of @p force on the nodes of each body, about its centre
       with its present arms; collective. */
   template <int dim>
-  BodyValues body_forces(const RigidBodies<dim> &bodies,
-                         const AlignedArray<dealii::Tensor<1, dim>> &force,
-                         MPI_Comm communicator);
+  BodyValues<dim> body_forces(const RigidBodies<dim> &bodies,
+                              const AlignedArray<dealii::Tensor<1, dim>> &force,
+                              MPI_Comm communicator);
 
   /** Loads on bodies [N, N m]; zero for prescribed components. */
   template <int dim>
-  BodyValues body_loads(const RigidBodies<dim> &bodies, const TimePoint &time);
+  BodyValues<dim> body_loads(const RigidBodies<dim> &bodies,
+                             const TimePoint &time);
 
   /** Component @p d of the force that @p state, which has held forces, holds
       on body @p b [N, N m]. */
@@ -88,7 +105,8 @@ namespace quoin
   /** Adds forces and moments on bodies to their degrees of freedom, on each
       rank that counts them. */
   template <int dim>
-  void add_body_forces(const RigidBodies<dim> &bodies, const BodyValues &force,
+  void add_body_forces(const RigidBodies<dim> &bodies,
+                       const BodyValues<dim> &force,
                        dealii::TrilinosWrappers::MPI::Vector &right_hand_side);
 } // namespace quoin
 

@@ -36,8 +36,7 @@ namespace quoin
   };
 
   /** All loads of a run, of which each stage names those that act in it
-      (StageLoads). Free fields and boundary elements belong to two
-      dimensions. */
+      (StageLoads). Boundary elements belong to two dimensions. */
   template <int dim>
   struct RunLoads
   {
@@ -85,9 +84,6 @@ namespace quoin
   };
 
   // Members that exist in two dimensions only.
-  template <>
-  void RunLoads<2>::add_free_fields(const Model<2> &model,
-                                    const std::vector<LoadParameters> &loads);
   template <>
   void
   RunLoads<2>::add_far_fields(std::unique_ptr<FarField> far_field,

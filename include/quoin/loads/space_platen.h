@@ -40,6 +40,15 @@ namespace quoin
     }
   };
 
+  dealii::Tensor<2, 3> rotation_of(const SpacePlatenState &platen);
+  void set_rotation(const dealii::Tensor<2, 3> &rotation,
+                    SpacePlatenState &platen);
+
+  /** The rotation by the angle |@p turn| [rad] about @p turn. */
+  dealii::Tensor<2, 3> rotation_by(const dealii::Tensor<1, 3> &turn);
+  /** The turn by less than half a revolution [rad] that @p rotation is. */
+  dealii::Tensor<1, 3> turn_of(const dealii::Tensor<2, 3> &rotation);
+
   /**
    * A Platen in three dimensions, with six degrees of freedom. Its rotations
    * are given by the rates at which it turns about the axes of the coordinates,

@@ -34,14 +34,28 @@ namespace quoin
     using Damping = std::array<double, dim *(dim + 1) / 2>;
 
     Damping damping{};
-    dealii::Tensor<1, dim> normal; /**< force per incident normal ... */
-    dealii::Tensor<1, dim> shear;  /**< ... and shear velocity [N s/m] */
+    dealii::Tensor<1, dim> normal;  /**< force per incident normal ... */
+    dealii::Tensor<1, dim> shear;   /**< ... and shear velocity [N s/m] */
+    dealii::Tensor<1, dim> lateral; /**< the second shear velocity in space */
 
-    /** Force of a wave with normal and shear velocity @p vn, @p vs [N]. */
-    dealii::Tensor<1, dim> pull(const double vn, const double vs) const
+    /** Force of waves with the normal, shear and, in three dimensions, second
+        shear velocity @p incident [m/s]. */
+    dealii::Tensor<1, dim> pull(const std::array<double, 3> &incident) const
     {
-      return vn * normal + vs * shear;
+      auto result = incident[0] * normal + incident[1] * shear;
+      if (dim == 3)
+        result += incident[2] * lateral;
+      return result;
     }
+
+    /** Adds to @p force [N] that by which the velocity @p v [m/s] of the medium
+        beyond drags the node along. */
+    void add_drag(const dealii::Tensor<1, dim> &v,
+                  dealii::Tensor<1, dim> &force) const;
+
+    /** Adds that of the area @p outward [m^2] with its normal, before a medium
+        of the impedance @p z. */
+    void add(const dealii::Tensor<1, dim> &outward, const Impedance &z);
   };
 
   /**
@@ -49,8 +63,8 @@ namespace quoin
    * shares of the @p faces of @p node_map; nodes that are not listed are left
    * out.
    * @p impedance, @p thickness: of each cell group. The shear velocity of an
-   * incident wave is along the boundary curve; in three dimensions it has no
-   * direction and is left out.
+   * incident wave is along the boundary curve; in three dimensions, where the
+   * faces must be horizontal for it, along x, the second one along y.
    */
   template <int dim>
   void add_dashpots(const NodeMap<dim> &node_map,
@@ -61,9 +75,20 @@ namespace quoin
                     std::vector<Dashpot<dim>> &dashpots);
 
   /**
+   * Velocity after a step [m/s] of a @p mass [kg] with @p velocity before it
+   * under @p force [N], the damping of the step and the drag @p damping [N s/m]
+   * on the mean velocity: (m + h c) v+ = (m - h c) v- + 2 h f, h half the step.
+   */
+  template <int dim>
+  dealii::Tensor<1, dim>
+  velocity_with_dashpot(const StepContext &step, double mass,
+                        const dealii::Tensor<1, dim> &velocity,
+                        const typename Dashpot<dim>::Damping &damping,
+                        const dealii::Tensor<1, dim> &force);
+
+  /**
    * Moves a node by its force, the force @p pull [N] and the drag @p damping [N
-   * s/m] on the mean velocity of the step: (m + h c) v+ = (m - h c) v- + 2 h f,
-   * h half the step.
+   * s/m], see velocity_with_dashpot().
    */
   template <int dim>
   void move_with_dashpot(const StepContext &step,
@@ -122,8 +147,8 @@ namespace quoin
   public:
     /**
      * @p impedance: beyond each cell group of @p node_map; @p thickness: of
-     * each. Throws an InputError
-     * about an incident shear velocity in three dimensions.
+     * each. Throws an InputError about an incident shear velocity on a surface
+     * that is not horizontal.
      */
     ViscousBoundary(const LoadParameters &parameters,
                     const NodeMap<dim> &node_map,
@@ -147,7 +172,8 @@ namespace quoin
     void hold(const std::vector<CapturedNode<dim>> &captured,
               ViscousBoundaryState<dim> &own) const;
     /** Force of the incident wave and held force on the i-th node [N]. */
-    dealii::Tensor<1, dim> pull(unsigned int i, double vn, double vs,
+    dealii::Tensor<1, dim> pull(unsigned int i,
+                                const std::array<double, 3> &incident,
                                 const ViscousBoundaryState<dim> &own) const;
 
     std::array<LoadComponent, 3> components;

@@ -4,7 +4,7 @@
 #ifndef quoin_model_material_waves_h
 #define quoin_model_material_waves_h
 
-#include <quoin/loads/free_field_boundary.h>
+#include <quoin/loads/free_field_column.h>
 #include <quoin/loads/viscous_boundary.h>
 #include <quoin/model/model.h>
 
@@ -28,8 +28,9 @@ namespace quoin
   template <int dim>
   double slowest_shear_wave(const Model<dim> &model);
 
-  /** Materials of the columns of free-field boundaries. */
-  FreeFieldGround free_field_ground(const Model<2> &model);
+  /** Materials of the ground beside free-field boundaries. */
+  template <int dim>
+  FreeFieldGround free_field_ground(const Model<dim> &model);
 } // namespace quoin
 
 #endif

@@ -31,3 +31,20 @@ values = dict(zip(
 np.savetxt(os.path.join(HERE, "reference.csv"), [[0.0, *values.values()]],
            delimiter=",", fmt="%.12g", comments="",
            header=",".join(["time [s]", *values]))
+
+# A bar whose clamp turns at a constant rate, when it has turned by |TURN|: the cap
+# at its other end follows, without force. The way of a corner of the cap against
+# that of one of the clamp, which is ACROSS from it.
+TURN, ACROSS = np.radians([80.0, 40.0, -60.0]), np.array([1.0, 1.0, 4.0])
+angle = np.linalg.norm(TURN)
+x, y, z = TURN / angle
+skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+rotation = (np.eye(3) + np.sin(angle) * skew
+            + (1 - np.cos(angle)) * skew @ skew)
+values = dict(zip(
+    ("ux [m]", "uy [m]", "uz [m]", "rx [deg]", "ry [deg]", "rz [deg]",
+     "mx [N m]", "my [N m]", "mz [N m]"),
+    (*(rotation @ ACROSS - ACROSS), *np.degrees(TURN), 0.0, 0.0, 0.0)))
+np.savetxt(os.path.join(HERE, "reference_turning.csv"),
+           [[1.0, *values.values()]], delimiter=",", fmt="%.12g", comments="",
+           header=",".join(["time [s]", *values]))

@@ -164,10 +164,11 @@ TEST(FreeField, TheColumnIsLayered)
       = { material("lower", 2500., 1e10), material("upper", 2000., 2e9) };
   TestRun run(mesh, parameters,
               { incident("0", "0"), free_field("left", "left") });
-  const auto *side = dynamic_cast<const FreeFieldBoundary *>(
+  const auto *side = dynamic_cast<const FreeFieldBoundary<2> *>(
       run.solver.loads().constraints.back().get());
   ASSERT_TRUE(side != nullptr);
-  EXPECT_EQ(side->heights(), (std::vector<double>{ 0., 1., 2., 3., 4. }));
+  EXPECT_EQ(side->sides().front().ground.heights(),
+            (std::vector<double>{ 0., 1., 2., 3., 4. }));
   const double modulus = 1e10 * 0.8 / (1.2 * 0.6);
   EXPECT_NEAR(side->largest_eigenvalue(), 4. * modulus / 2500., 1e-3);
   EXPECT_EQ(side->traits().companion, "base");

@@ -4,6 +4,7 @@
 // Blocks in three dimensions, from the distributed mesh to the steps. These
 // tests also run on two and three ranks, among which the block is divided.
 
+#include "../base/message_of.h"
 #include "../mesh/space_box.h"
 #include "../model/test_models.h"
 
@@ -11,6 +12,8 @@
 #include <quoin/blocks/block_cells.h>
 #include <quoin/dynamics/central_differences.h>
 #include <quoin/dynamics/kinetic_energy.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/space_platen.h>
@@ -491,4 +494,142 @@ TEST(SpaceBlocks, ForcesAndMomentsAccelerateAPlaten)
               1e-9 * std::abs(turned.norm() * I[0][0]));
   EXPECT_EQ(box.platen->moments()[2], 0.);
   EXPECT_EQ(box.platen->MotionConstraint<3>::resultant()[1], 5.);
+}
+
+namespace
+{
+  /** Puts @p box on a viscous base, from which the same waves rise along all
+      axes, or on one that moves, between free fields on four sides. */
+  void stand_between_free_fields(Box &box, const bool prescribed)
+  {
+    const auto z         = impedance_of(stone, PlaneAssumption::plane_strain);
+    LoadParameters below = load("base",
+                                prescribed ? LoadType::prescribed_motion
+                                           : LoadType::viscous_boundary,
+                                { "z0" });
+    for (LoadComponent &part : below.components)
+      part = component(LoadQuantity::velocity,
+                       "1e-9*(1-cos(2*pi*t/0.016))*if(t<0.016,1,0)");
+    LoadParameters sides
+        = load("sides", LoadType::free_field, { "x0", "x1", "y0", "y1" });
+    if (prescribed)
+      box.constraints.push_back(
+          std::make_unique<PrescribedMotion<3>>(below, box.nodes));
+    else
+      box.constraints.push_back(std::make_unique<ViscousBoundary<3>>(
+          below, box.nodes, std::vector<Impedance>{ z }, 1.));
+    FreeFieldGround ground;
+    ground.materials = { stone };
+    ground.is_rigid = ground.yields = { false };
+    auto fields                     = std::make_unique<FreeFieldBoundary<3>>(
+        sides, box.nodes, ground, FreeFieldBase{ below, { z } });
+    box.dt = std::min(box.dt, 1.6 / std::sqrt(fields->largest_eigenvalue()));
+    // What prescribes comes last.
+    box.constraints.insert(prescribed ? box.constraints.begin()
+                                      : box.constraints.end(),
+                           std::move(fields));
+  }
+} // namespace
+
+TEST(SpaceFreeField, UprightWavesPassAsIfTheModelWereEndless)
+{
+  Box box({ 6, 4, 20 }, 1., stone);
+  stand_between_free_fields(box, false);
+  box.begin();
+  double peak = 0., scatter = 0.;
+  while (box.state.time < 0.04)
+  {
+    box.step();
+    std::array<double, 6> ends; // largest and, negative, smallest
+    ends.fill(-1.);
+    for (unsigned int i = 0; i < box.nodes.n_owned(); ++i)
+      if (box.nodes.point(i)[2] == 20.)
+        for (unsigned int d = 0; d < 3; ++d)
+          for (const unsigned int k : { 0, 1 })
+            ends[2 * d + k]
+                = std::max(ends[2 * d + k],
+                           box.state.velocity[i][d] * (k == 0 ? 1. : -1.));
+    for (unsigned int k = 0; k < 6; ++k)
+      ends[k] = dealii::Utilities::MPI::max(ends[k], MPI_COMM_WORLD);
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      peak    = std::max(peak, ends[2 * d]);
+      scatter = std::max(scatter, ends[2 * d] + ends[2 * d + 1]);
+    }
+  }
+  EXPECT_NEAR(peak, 4e-9, 0.1e-9);
+  EXPECT_LT(scatter, 0.03 * peak);
+}
+
+TEST(SpaceFreeField, BalancesItsEnergy)
+{
+  for (const bool prescribed : { false, true })
+  {
+    Box box({ 3, 2, 4 }, 1., stone);
+    stand_between_free_fields(box, prescribed);
+    box.stage.mass_coefficient      = 5.;
+    box.stage.stiffness_coefficient = 1e-5;
+    box.begin();
+    box.stage.damping = DampingType::rayleigh;
+    double largest = 0., most = 0.;
+    for (unsigned int i = 0; i < 300; ++i)
+    {
+      box.step();
+      largest = std::max(largest, std::abs(box.residual()));
+      most    = std::max(most, box.stored + box.kinetic);
+    }
+    EXPECT_LT(largest, 1e-6 * most);
+    EXPECT_GT(box.sum(box.state.energy.viscous), 0.);
+  }
+}
+
+TEST(SpaceFreeField, RefusesWhatIsNoSideAndNoBase)
+{
+  const Box box({ 2, 2, 2 }, 1., stone);
+  const auto z = impedance_of(stone, PlaneAssumption::plane_strain);
+  FreeFieldGround rock;
+  rock.materials = { stone };
+  rock.is_rigid = rock.yields = { false };
+  const auto message = [&](const std::string &side, const std::string &base,
+                           const FreeFieldGround &ground)
+  {
+    return message_of<InputError>(
+        [&]
+        {
+          FreeFieldBoundary<3>(
+              load("sides", LoadType::free_field, { side }), box.nodes, ground,
+              { load("base", LoadType::viscous_boundary, { base }), { z } });
+        });
+  };
+  FreeFieldGround yielding = rock, rigid = rock;
+  yielding.yields = rigid.is_rigid = { true };
+  const std::vector<std::pair<std::string, std::string>> said
+      = { { message("z1", "z0", rock), "not vertical" },
+          { message("x0", "z1", rock),
+            "'Base' is 'base', which does not meet" },
+          { message("x0", "y0", rock), "does not meet the foot" },
+          { message("y0", "z0", yielding), "'Mohr-Coulomb'" },
+          { message("y0", "z0", rigid), "rigid block" } };
+  for (const auto &[text, words] : said)
+  {
+    EXPECT_NE(text.find("'Loads/sides'"), std::string::npos) << text;
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  }
+}
+
+TEST(SpaceFreeField, AnSWaveNeedsAHorizontalBase)
+{
+  const Box box({ 1, 1, 1 }, 1., stone);
+  LoadParameters side    = load("side", LoadType::viscous_boundary, { "x0" });
+  side.components[2]     = component(LoadQuantity::velocity, "t");
+  const std::string text = message_of<InputError>(
+      [&]
+      {
+        ViscousBoundary<3>(
+            side, box.nodes,
+            { impedance_of(stone, PlaneAssumption::plane_strain) }, 1.);
+      });
+  for (const std::string words :
+       { "'Loads/side'", "Incident lateral velocity", "not horizontal" })
+    EXPECT_NE(text.find(words), std::string::npos) << text;
 }

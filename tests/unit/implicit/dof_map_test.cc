@@ -17,7 +17,7 @@ namespace
   constexpr auto given_force     = LoadQuantity::force;
   constexpr double degree        = 3.14159265358979323846 / 180.;
 
-  using Values = BodyValues;
+  using Values = BodyValues<2>;
 
   /** Two blocks: a platen, which drives the lower one, and a rigid block. */
   struct Bodies

@@ -130,27 +130,6 @@ namespace
     const Energies &energies = run.solver.energies();
     return std::abs(energies.residual()) / energies.throughput();
   }
-
-  /** Of one step in which Newton's method needs no help. */
-  template <typename Reports>
-  void expect_quadratic_convergence(const Reports &reports,
-                                    const unsigned int least_pairs)
-  {
-    unsigned int n_pairs = 0;
-    double largest       = 0.;
-    for (unsigned int i = 1; i < reports.size(); ++i)
-    {
-      const double before = reports[i - 1].unbalanced_ratio;
-      const double after  = reports[i].unbalanced_ratio;
-      if (before > 1e-2 || before < 1e-6) // rounding beyond
-        continue;
-      ++n_pairs;
-      largest = std::max(largest, after / (before * before));
-    }
-    EXPECT_GE(n_pairs, least_pairs);
-    EXPECT_LT(largest, 20.);
-    EXPECT_LT(reports.size(), 12U);
-  }
 } // namespace
 
 TEST(ImplicitSolver, UniformStressIsExact)

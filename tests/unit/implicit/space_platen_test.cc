@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// Platens in three dimensions in equilibrium.
+
+#include "../mesh/space_box.h"
+#include "implicit_run.h"
+
+#include <quoin/base/constants.h>
+#include <quoin/loads/space_platen.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  using Vector = dealii::Tensor<1, 3>;
+
+  LoadParameters cap(const std::string &name, const std::string &side,
+                     const std::array<LoadComponent, 3> &along,
+                     const std::array<LoadComponent, 3> &about)
+  {
+    LoadParameters result;
+    result.name       = name;
+    result.type       = LoadType::platen;
+    result.boundaries = { side };
+    result.components = along;
+    result.rotations  = about;
+    return result;
+  }
+
+  /** A bar of 1 m x 1 m, 4 m high, between the platens "foot" and "head". */
+  struct Bar
+  {
+    BlockTriangulation<3> blocks;
+    NodeMap<3> nodes;
+    Model<3> model;
+    ImplicitSolver<3> solver;
+    State<3> state;
+
+    explicit Bar(const std::vector<LoadParameters> &loads,
+                 const ImplicitParameters &numbers)
+      : blocks(made()), nodes(blocks), model(nodes, rock()),
+        solver(model, loads, numbers, {}), state(model.initial_state())
+    {
+      solver.begin_stage(stage_with({ "foot", "head" }), nullptr, state);
+      while (!solver.has_ended(state))
+        solver.step(state);
+    }
+
+    static BlockTriangulation<3> made()
+    {
+      BlockMesh<3> mesh = box_mesh({ 2, 2, 8 }, 0.5);
+      return { mesh,
+               std::vector<unsigned int>(mesh.n_cells(), 0),
+               { false },
+               MPI_COMM_SELF };
+    }
+
+    static ModelParameters rock()
+    {
+      ModelParameters parameters;
+      parameters.materials = { material("rock") };
+      return parameters;
+    }
+
+    const MotionConstraint<3> &platen(const unsigned int k) const
+    {
+      return *solver.loads().constraints[k];
+    }
+    Vector moved(const unsigned int k) const
+    {
+      const double *u = platen(k).rigid_motion()->displacement(state);
+      return Vector({ u[0], u[1], u[2] });
+    }
+    /** From the centre of the foot to that of the head, undeformed [m]. */
+    Vector arm() const
+    {
+      return state.get<SpacePlatenState>("head").centre
+             - state.get<SpacePlatenState>("foot").centre;
+    }
+    Vector force(const unsigned int k) const
+    {
+      const auto f = solver.resultant(platen(k).name());
+      return Vector({ f[0], f[1], f[2] });
+    }
+    Vector moment(const unsigned int k) const
+    {
+      const auto m = solver.moments(platen(k));
+      return Vector({ m[0], m[1], m[2] });
+    }
+  };
+
+  LoadComponent of(const LoadQuantity quantity, const std::string &text)
+  {
+    return component(quantity, text);
+  }
+} // namespace
+
+// Forces and moments on the head, which is turned about x, in one step.
+TEST(SpacePlatens, IterationsConvergeQuadraticallyToEquilibrium)
+{
+  const auto still = of(LoadQuantity::velocity, "0");
+  const auto push
+      = [](const std::string &text) { return of(LoadQuantity::force, text); };
+  ImplicitParameters numbers;
+  numbers.first_step = numbers.largest_step = 1.;
+  numbers.force_ratio                       = 1e-12;
+  numbers.line_search                       = false;
+  const Bar bar(
+      { cap("foot", "z0", { still, still, still }, { still, still, still }),
+        cap("head", "z1", { push("8e6*t"), push("5e6*t"), {} },
+            { of(LoadQuantity::displacement, "6*t"), push("2e7*t"),
+              push("-3e7*t") }) },
+      numbers);
+  auto &record = const_cast<Bar &>(bar).solver.record();
+  expect_quadratic_convergence(record.iterations, 2);
+
+  const double *motion = bar.platen(1).rigid_motion()->displacement(bar.state);
+  EXPECT_GT(motion[0], 0.2);
+  EXPECT_NEAR(motion[3], 6. * constants::degree, 1e-14);
+  EXPECT_LT(motion[5], -0.05);
+  // Statics in the deformed position.
+  const Vector arm = bar.arm() + bar.moved(1);
+  EXPECT_LT((bar.force(0) + bar.force(1)).norm(), 1e-5 * 8e6);
+  EXPECT_LT((bar.moment(0) + bar.moment(1)
+             + dealii::cross_product_3d(arm, bar.force(1)))
+                .norm(),
+            1e-5 * 3e7);
+  EXPECT_NEAR(bar.moment(1)[1], 2e7, 1.);
+}
+
+// The foot turns about a skew axis and moves; the head follows without force.
+TEST(SpacePlatens, ALooseHeadFollowsTheFootThroughLargeTurns)
+{
+  ImplicitParameters numbers;
+  numbers.first_step = numbers.largest_step = 0.2;
+  numbers.force_ratio                       = 1e-5;
+  const auto turn                           = [](const std::string &text)
+  { return of(LoadQuantity::displacement, text); };
+  const Bar bar(
+      { cap("foot", "z0", { turn("2*t"), turn("-t"), turn("0") },
+            { turn("80*t"), of(LoadQuantity::velocity, "40"), turn("-60*t") }),
+        cap("head", "z1", {}, {}) },
+      numbers);
+  const Vector whole = constants::degree * Vector({ 80., 40., -60. });
+  const Vector arm   = bar.arm(), shift({ 2., -1., 0. });
+  EXPECT_LT((bar.moved(1) - shift - (rotation_by(whole) * arm - arm)).norm(),
+            1e-9);
+  const double *motion = bar.platen(1).rigid_motion()->displacement(bar.state);
+  for (unsigned int d = 0; d < 3; ++d)
+    EXPECT_NEAR(motion[3 + d], whole[d], 1e-9);
+  EXPECT_LT((turn_of(rotation_by(whole)) - whole).norm(), 1e-14);
+  EXPECT_LT(bar.moment(0).norm(), 1.);
+}
