@@ -1334,6 +1334,24 @@ def space_sphere_yielding(case, folder, output, histories):
         "energy residual": residual_of(energies(output))}
 
 
+def space_sphere_step(case, folder, output, histories):
+    """Displacements of all nodes up to 2 m at the times of the fields, relative
+    to the largest of the wall; and the residual of the energy balance."""
+    exact = reference_module(folder)
+    path = os.path.join(output, "blocks.pvd")
+    largest, scale = 0.0, np.max(np.abs(histories["wall_x"]))
+    for time, _ in vtu.read_pvd(path):
+        grid = vtu.read_at(path, time)
+        x, u = grid.points, grid.point_data["displacement"]
+        r = np.linalg.norm(x, axis=1)
+        near = r < 2 + 1e-6
+        wanted = (exact.displacement(r, time) / r)[:, None] * x
+        largest = max(largest, np.max(np.linalg.norm((u - wanted)[near],
+                                                     axis=1)))
+    return {"all nodes up to 2 m": float(largest / scale),
+            "energy residual": residual_of(energies(output))}
+
+
 def space_fill(case, folder, output, histories):
     """Displacements of the top of both lifts and the traction between them at
     the end of each stage, relative to the largest of the stage. "in situ": the
