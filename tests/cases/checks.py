@@ -1262,6 +1262,18 @@ def polarised_slip(case, folder, output, histories):
             **energy_residual(case, folder, output, histories)}
 
 
+def direction_of_slip(case, folder, output, histories):
+    """Angle [rad] between the slip of the last two thirds of the run and the
+    direction that the reference has in the "state" of the case."""
+    t = histories["time"]
+    path = np.transpose([histories["slip_" + axis] for axis in "xyz"])
+    moved = path[-1] - path[np.searchsorted(t, t[-1] / 3)]
+    wanted = reference_module(folder).slip(*case["state"])
+    return {"direction of slip": float(np.arctan2(
+                np.linalg.norm(np.cross(moved, wanted)), moved @ wanted)),
+            **energy_residual(case, folder, output, histories)}
+
+
 def space_sphere(case, folder, output, histories):
     """Displacements of the wall of a spherical cavity at the end of each stage,
     relative to the formula's with the case's "poisson"; the core is gone from
