@@ -347,6 +347,63 @@ def energy_drift(case, folder, output, histories):
     }
 
 
+def lumped_masses(grid, density):
+    """Masses of the nodes of tetrahedra."""
+    return density / 4 * np.bincount(grid.cells.ravel(),
+                                     np.repeat(volumes(grid), 4))
+
+
+def momentum(grid, mass):
+    """Linear and angular momentum about the origin of moving nodes."""
+    velocity = grid.point_data["velocity"]
+    place = grid.points + grid.point_data["displacement"]
+    return mass @ velocity, mass @ np.cross(place, velocity)
+
+
+def space_energy_drift(case, folder, output, histories):
+    """energy_drift(), and how far the momentum at the times of the fields is from
+    the first, relative to the angular one."""
+    path = os.path.join(output, "blocks.pvd")
+    grids = [vtu.read_at(path, time) for time, _ in vtu.read_pvd(path)]
+    mass = lumped_masses(grids[0], case["density"])
+    found = np.array([momentum(grid, mass) for grid in grids])
+    if len(found) < 3:
+        raise Failure("only %d outputs of fields" % len(found))
+    return {"momentum": float(np.max(np.abs(found - found[0]))
+                              / np.linalg.norm(found[0, 1])),
+            **energy_drift(case, folder, output, histories)}
+
+
+def space_turnover(case, folder, output, histories):
+    """Corners and turn-overs of a block, by Euler's equations with the inertia of
+    its lumped masses; its momentum at the end; its energy."""
+    exact = reference_module(folder)
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    mass = lumped_masses(grid, exact.DENSITY)
+    inertia = exact.of_masses(grid.points, mass)
+    t = strictly_increasing(histories)["time"]
+    turned = exact.rotations(inertia, t)
+    places, error = [], 0.0
+    for name, corner in zip(("corner", "other"), exact.CORNERS):
+        u = np.transpose([strictly_increasing(histories)[name + "_" + axis]
+                          for axis in "xyz"])
+        places.append(corner + u)
+        error = max(error, np.max(np.abs(places[-1] - turned @ corner)))
+    found = exact.turnovers(np.mean(places, axis=0), inertia, t)
+    wanted = exact.turnovers(turned[:, :, 1], inertia, t)
+    print("  turns over at", found, "formula", wanted)
+    if len(found) != len(wanted):
+        raise Failure("%d turn-overs, not %d" % (len(found), len(wanted)))
+    linear, angular = momentum(grid, mass)
+    spin = np.linalg.norm(inertia @ exact.SPIN)
+    return {"corners / size": float(error / exact.SIDES[0]),
+            "turn-overs": float(np.max(np.abs(found / wanted - 1))),
+            "momentum": float(max(
+                np.linalg.norm(linear) / spin,
+                np.linalg.norm(angular - inertia @ exact.SPIN) / spin)),
+            **energy_drift(case, folder, output, histories)}
+
+
 def at_rest(case, folder, output, histories):
     """Displacement of the top by what gravity alone would make of it, and the
     reaction, which must be the weight 2500 x 9.81 x 4 N throughout."""
