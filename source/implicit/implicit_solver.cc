@@ -36,6 +36,9 @@ namespace quoin
     /** Way to the equilibrium behind a jump, by that of the jump, below which a
         search for the factor of safety takes it. */
     constexpr double near_share = 0.25;
+    /** Path by that with a fifth of the drag, above which it is not the drag
+        that limits it [-]. */
+    constexpr double at_once_share = 0.9;
     /** Tolerated relative error of the path's length [-]. */
     constexpr double path_tolerance = 1e-3;
     /** Tolerated error of a controlled displacement, by its increment [-]. */
@@ -564,6 +567,7 @@ namespace quoin
     if (!state.template get<ImplicitState>().jumps)
       last_equilibrium = state;
     Configuration<dim> configuration;
+    double refused = std::numeric_limits<double>::infinity();
     for (attempt = 0;; ++attempt)
     {
       const StepTarget target = own_steps.target(state);
@@ -588,8 +592,16 @@ namespace quoin
           = state.template get<ImplicitState>().jumps
                 ? own_steps.most_jump_path(state.template get<ImplicitState>())
                 : collapse_share * model.nodes().table().diagonal();
-      if (outcome == Outcome::converged && std::abs(balance.path) <= most)
-        break;
+      if (outcome == Outcome::converged)
+      {
+        const double path = std::abs(balance.path);
+        // Soft joints slip far once they lose strength, whatever the drag.
+        if (path <= most
+            || (stage.safety && state.template get<ImplicitState>().jumps
+                && path > at_once_share * refused))
+          break;
+        refused = path;
+      }
       ++done.n_cuts;
       if (!own_steps.cut(equilibrium->measures_path(), state))
         give_up(state);

@@ -357,6 +357,63 @@ def energy_drift(case, folder, output, histories):
     }
 
 
+def lumped_masses(grid, density):
+    """Masses of the nodes of tetrahedra."""
+    return density / 4 * np.bincount(grid.cells.ravel(),
+                                     np.repeat(volumes(grid), 4))
+
+
+def momentum(grid, mass):
+    """Linear and angular momentum about the origin of moving nodes."""
+    velocity = grid.point_data["velocity"]
+    place = grid.points + grid.point_data["displacement"]
+    return mass @ velocity, mass @ np.cross(place, velocity)
+
+
+def space_energy_drift(case, folder, output, histories):
+    """energy_drift(), and how far the momentum at the times of the fields is from
+    the first, relative to the angular one."""
+    path = os.path.join(output, "blocks.pvd")
+    grids = [vtu.read_at(path, time) for time, _ in vtu.read_pvd(path)]
+    mass = lumped_masses(grids[0], case["density"])
+    found = np.array([momentum(grid, mass) for grid in grids])
+    if len(found) < 3:
+        raise Failure("only %d outputs of fields" % len(found))
+    return {"momentum": float(np.max(np.abs(found - found[0]))
+                              / np.linalg.norm(found[0, 1])),
+            **energy_drift(case, folder, output, histories)}
+
+
+def space_turnover(case, folder, output, histories):
+    """Corners and turn-overs of a block, by Euler's equations with the inertia of
+    its lumped masses; its momentum at the end; its energy."""
+    exact = reference_module(folder)
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    mass = lumped_masses(grid, exact.DENSITY)
+    inertia = exact.of_masses(grid.points, mass)
+    t = strictly_increasing(histories)["time"]
+    turned = exact.rotations(inertia, t)
+    places, error = [], 0.0
+    for name, corner in zip(("corner", "other"), exact.CORNERS):
+        u = np.transpose([strictly_increasing(histories)[name + "_" + axis]
+                          for axis in "xyz"])
+        places.append(corner + u)
+        error = max(error, np.max(np.abs(places[-1] - turned @ corner)))
+    found = exact.turnovers(np.mean(places, axis=0), inertia, t)
+    wanted = exact.turnovers(turned[:, :, 1], inertia, t)
+    print("  turns over at", found, "formula", wanted)
+    if len(found) != len(wanted):
+        raise Failure("%d turn-overs, not %d" % (len(found), len(wanted)))
+    linear, angular = momentum(grid, mass)
+    spin = np.linalg.norm(inertia @ exact.SPIN)
+    return {"corners / size": float(error / exact.SIDES[0]),
+            "turn-overs": float(np.max(np.abs(found / wanted - 1))),
+            "momentum": float(max(
+                np.linalg.norm(linear) / spin,
+                np.linalg.norm(angular - inertia @ exact.SPIN) / spin)),
+            **energy_drift(case, folder, output, histories)}
+
+
 def at_rest(case, folder, output, histories):
     """Displacement of the top by what gravity alone would make of it, and the
     reaction, which must be the weight 2500 x 9.81 x 4 N throughout."""
@@ -1272,6 +1329,18 @@ def polarised_slip(case, folder, output, histories):
             **energy_residual(case, folder, output, histories)}
 
 
+def direction_of_slip(case, folder, output, histories):
+    """Angle [rad] between the slip of the last two thirds of the run and the
+    direction that the reference has in the "state" of the case."""
+    t = histories["time"]
+    path = np.transpose([histories["slip_" + axis] for axis in "xyz"])
+    moved = path[-1] - path[np.searchsorted(t, t[-1] / 3)]
+    wanted = reference_module(folder).slip(*case["state"])
+    return {"direction of slip": float(np.arctan2(
+                np.linalg.norm(np.cross(moved, wanted)), moved @ wanted)),
+            **energy_residual(case, folder, output, histories)}
+
+
 def space_sphere(case, folder, output, histories):
     """Displacements of the wall of a spherical cavity at the end of each stage,
     relative to the formula's with the case's "poisson"; the core is gone from
@@ -1342,6 +1411,24 @@ def space_sphere_yielding(case, folder, output, histories):
             np.max(np.abs(radial - wanted)) / np.max(np.abs(wanted))),
         "stress / pressure, rms": float(np.max(error) / exact.p0),
         "energy residual": residual_of(energies(output))}
+
+
+def space_sphere_step(case, folder, output, histories):
+    """Displacements of all nodes up to 2 m at the times of the fields, relative
+    to the largest of the wall; and the residual of the energy balance."""
+    exact = reference_module(folder)
+    path = os.path.join(output, "blocks.pvd")
+    largest, scale = 0.0, np.max(np.abs(histories["wall_x"]))
+    for time, _ in vtu.read_pvd(path):
+        grid = vtu.read_at(path, time)
+        x, u = grid.points, grid.point_data["displacement"]
+        r = np.linalg.norm(x, axis=1)
+        near = r < 2 + 1e-6
+        wanted = (exact.displacement(r, time) / r)[:, None] * x
+        largest = max(largest, np.max(np.linalg.norm((u - wanted)[near],
+                                                     axis=1)))
+    return {"all nodes up to 2 m": float(largest / scale),
+            "energy residual": residual_of(energies(output))}
 
 
 def space_fill(case, folder, output, histories):

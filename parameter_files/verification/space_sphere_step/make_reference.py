@@ -1,0 +1,61 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Spherical cavity of radius a under a step of pressure p in an unbounded medium.
+
+The potential f(tau)/r of the displacement, tau = t - (r - a)/c1, is a spherical P
+wave. In units of a and c1, with m = mu/(lambda + 2 mu), the radial stress
+(lambda + 2 mu) f''/r + 4 mu (f'/r^2 + f/r^3) is -p on the wall, so that
+
+  f'' + 4 m f' + 4 m f = -p/(lambda + 2 mu),   u = -(f'/r + f/r^2).
+"""
+import os
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+RADIUS, DENSITY, YOUNG, NU, PRESSURE = 1.0, 2500.0, 18.75e9, 0.25, 1e6
+MU = YOUNG / (2 * (1 + NU))
+RATIO = (1 - 2 * NU) / (2 * (1 - NU))
+C1 = (MU / RATIO / DENSITY)**0.5
+DECAY = 2 * RATIO
+OMEGA = (4 * RATIO - DECAY**2)**0.5
+
+
+def potential(tau):
+    """f, f' and f'', in units of p a^3/(4 mu)."""
+    e, c, s = np.exp(-DECAY * tau), np.cos(OMEGA * tau), np.sin(OMEGA * tau)
+    slope = -e * s * (DECAY**2 + OMEGA**2) / OMEGA
+    return (-(1 - e * (c + DECAY / OMEGA * s)), slope,
+            -DECAY * slope - e * c * (DECAY**2 + OMEGA**2))
+
+
+def displacement(r, t):
+    """Radial displacement [m] at the distance r [m] and the time t [s]."""
+    r = np.asarray(r) / RADIUS
+    tau = t * C1 / RADIUS - (r - 1)
+    f, slope, _ = potential(np.maximum(tau, 0))
+    return (-(slope / r + f / r**2) * (tau > 0)
+            * PRESSURE * RADIUS / (4 * MU))
+
+
+def main():
+    tau = np.linspace(0, 20, 20001)
+    f, slope, second = potential(tau)
+    assert np.allclose(np.gradient(f, tau)[1:-1], slope[1:-1], atol=1e-6)
+    assert np.allclose(second + 4 * RATIO * (slope + f), -4 * RATIO)
+    # Lame's static cavity, p a/(4 mu), in the end
+    assert abs(displacement(1, 0.1) / (PRESSURE / (4 * MU)) - 1) < 1e-6
+    times = np.arange(0, 8.001, 0.05) * RADIUS / C1
+    wall = displacement(1, times)
+    np.savetxt(os.path.join(HERE, "reference.csv"),
+               np.transpose([times, wall, wall, displacement(2, times)]),
+               delimiter=",", fmt="%.9g", comments="",
+               header="time [s],wall_x [m],wall_z [m],inner_y [m]")
+    print("peak of the wall %.6g of the static displacement, at c1 t/a = %.3g"
+          % (np.max(wall) / (PRESSURE / (4 * MU)), tau[np.argmax(
+              displacement(1, tau * RADIUS / C1))]))
+
+
+if __name__ == "__main__":
+    main()
