@@ -7,7 +7,8 @@ A pulse f comes up from the base at depth H: the free surface moves with
 2 f(t - H/c). With a soft layer of depth h on top, what crosses into it,
 T = 2 z/(z + z_s), z = rho c, is doubled at the surface and goes to and fro with
 R = (z_s - z)/(z_s + z) at its foot: 2 T sum R^n f(t - t_1 - 2 n h/c_s).
-The S pulse is 30 degrees off x, the P pulse half as large.
+The S pulse is 30 degrees off x, the P pulse half as large. A base that moves as
+f reflects what comes down: 2 sum (-1)^n f(t - (2 n + 1) H/c).
 """
 import os
 
@@ -48,3 +49,11 @@ write("reference.csv", surface(CS, CS), surface(CS * 3**0.5, CS * 3**0.5))
 SOIL_CS = (5e9 / (2 * 2000 * 1.25))**0.5
 write("reference_layers.csv", surface(CS, SOIL_CS, soil_rho=2000.0),
       surface(CS * 3**0.5, SOIL_CS * 3**0.5, soil_rho=2000.0))
+
+
+def driven(speed):
+    return sum(2 * (-1)**n * pulse(times - (2 * n + 1) * H / speed)
+               for n in range(20))
+
+
+write("reference_driven.csv", driven(CS), driven(CS * 3**0.5))
