@@ -116,6 +116,9 @@ namespace quoin
             { "Incident shear velocity", "0", viscous },
             { "Incident lateral velocity", "0", viscous },
             { "Far field material", "", viscous },
+            { "Incident direction", "", viscous },
+            { "Incident origin", "", viscous },
+            { "Free surface", "none", viscous },
             { "Base", "", { "free-field boundary" } },
             { "Stress", "0, 0, 0", initial },
             { "Stress gradient", "0, 0, 0", initial },
@@ -206,6 +209,12 @@ namespace quoin
                        + "' is along the third axis, which a model "
                          "in two dimensions does not have. Remove it, or take "
                          "a mesh of tetrahedra.");
+    if (wave_direction)
+      throw InputError("section 'Loads/" + name
+                       + "': 'Incident direction' is for models in three "
+                         "dimensions. In the plane, waves of any direction "
+                         "come through boundary elements: section 'Incident "
+                         "waves'.");
     for (const unsigned int d : { 0, 1 })
       if (rotations[d].quantity != LoadQuantity::free)
         throw InputError("section 'Loads/" + name + "': 'Rotation "
@@ -502,6 +511,65 @@ namespace quoin
                       "must be 'automatic' or a time that is not negative.");
     }
 
+    /** Three numbers, or nothing. */
+    std::optional<std::array<double, 3>>
+    numbers_or_none(const ParameterSection &section, const std::string &name)
+    {
+      if (section.text(name).empty())
+        return {};
+      return section.numbers<3>(name);
+    }
+
+    void enter_plane_waves(ParameterEntries &entries, LoadParameters &load)
+    {
+      entries.other(
+          "Incident direction", "",
+          "Direction x, y, z in which plane waves propagate that pass a "
+          "viscous "
+          "boundary in three dimensions, of any length; empty: they come along "
+          "the normal. The incident normal velocity is then that of a P wave, "
+          "the shear velocity that of an SV wave, the lateral velocity that of "
+          "an SH wave, as they pass 'Incident origin'.",
+          [&](const ParameterSection &section)
+          {
+            const auto d = numbers_or_none(section, "Incident direction");
+            if (!d)
+              return;
+            load.wave_direction = dealii::Point<3>((*d)[0], (*d)[1], (*d)[2]);
+            if (load.wave_direction->norm() == 0.)
+              section.fail("Incident direction", "must not be 0, 0, 0.");
+          });
+      entries.other(
+          "Incident origin", "",
+          "Place x, y, z that incident plane waves pass at t = 0, before they "
+          "reach the boundary; empty: the place of this boundary that they "
+          "reach first [m]",
+          [&](const ParameterSection &section)
+          {
+            if (const auto x = numbers_or_none(section, "Incident origin"))
+              load.wave_origin = dealii::Point<3>((*x)[0], (*x)[1], (*x)[2]);
+          });
+      entries.other(
+          "Free surface", "none",
+          "Height z of a free horizontal surface above the model, which "
+          "reflects incident plane waves before they pass its sides; none: "
+          "there is none [m]",
+          [&](const ParameterSection &section)
+          {
+            if (section.text("Free surface") != "none")
+              load.free_surface = section.number("Free surface");
+          });
+      const ParameterSection *section = entries.read_section();
+      if (!section || load.wave_direction)
+        return;
+      if (load.wave_origin)
+        section->fail("Incident origin",
+                      "goes with an 'Incident direction': give one.");
+      if (load.free_surface)
+        section->fail("Free surface",
+                      "goes with an 'Incident direction': give one.");
+    }
+
     void enter_open_boundary(ParameterEntries &entries, LoadParameters &load)
     {
       if (entries.reads_if(load.type == LoadType::viscous_boundary))
@@ -531,6 +599,7 @@ namespace quoin
             "Far field material", load.far_material,
             "Material of the medium beyond a viscous boundary, which gives the "
             "impedances; empty: the material of the cells along the boundary.");
+        enter_plane_waves(entries, load);
       }
       if (!entries.reads_if(load.type == LoadType::free_field))
         return;

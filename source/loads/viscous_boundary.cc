@@ -6,6 +6,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/operators/archive.h>
 #include <quoin/loads/nodal_load.h>
+#include <quoin/loads/plane_waves.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
 
@@ -111,7 +112,7 @@ namespace quoin
   {
     const PlaneStiffness stiffness = plane_stiffness(material, assumption);
     return { std::sqrt(material.density * stiffness.c11),
-             std::sqrt(material.density * stiffness.c33) };
+             std::sqrt(material.density * stiffness.c33), material.density };
   }
 
   template <int dim>
@@ -239,14 +240,22 @@ namespace quoin
     const auto faces
         = faces_of_curves(node_map, parameters.boundaries, this->load_name);
     if constexpr (dim == 3)
-      if (components[1].quantity != LoadQuantity::free
-          || components[2].quantity != LoadQuantity::free)
+      if (!parameters.wave_direction
+          && (components[1].quantity != LoadQuantity::free
+              || components[2].quantity != LoadQuantity::free))
         refuse_inclined(faces, this->load_name);
     this->node_list = nodes_of_faces(node_map, faces);
     dashpots.resize(this->node_list.size());
     add_dashpots(node_map, faces, impedance, thickness, this->node_list,
                  dashpots);
+    if constexpr (dim == 3)
+      if (parameters.wave_direction)
+        plane_waves = std::make_unique<const PlaneWaveForces>(
+            parameters, node_map, faces, impedance, this->node_list);
   }
+
+  template <int dim>
+  ViscousBoundary<dim>::~ViscousBoundary() = default;
 
   template <int dim>
   void ViscousBoundary<dim>::prepare(State<dim> &state) const
@@ -276,15 +285,24 @@ namespace quoin
   }
 
   template <int dim>
-  dealii::Tensor<1, dim>
-  ViscousBoundary<dim>::pull(const unsigned int i,
-                             const std::array<double, 3> &incident,
-                             const ViscousBoundaryState<dim> &own) const
+  std::vector<dealii::Tensor<1, dim>>
+  ViscousBoundary<dim>::pulls(const TimePoint &time,
+                              const ViscousBoundaryState<dim> &own) const
   {
-    dealii::Tensor<1, dim> result = dashpots[i].pull(incident);
+    std::vector<dealii::Tensor<1, dim>> result(dashpots.size());
+    if constexpr (dim == 3)
+      if (plane_waves)
+        plane_waves->find(components, time, result);
+    if (!plane_waves)
+    {
+      const auto incident = component_values(components, time);
+      for (unsigned int i = 0; i < dashpots.size(); ++i)
+        result[i] = dashpots[i].pull(incident);
+    }
     if (!own.held.empty())
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] += own.held[dim * i + d];
+      for (unsigned int i = 0; i < dashpots.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          result[i][d] += own.held[dim * i + d];
     return result;
   }
 
@@ -294,14 +312,14 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const auto incident = component_values(components, step.begin);
     ViscousBoundaryState<dim> &own
         = state.template get<ViscousBoundaryState<dim>>(this->load_name);
     if (!own.active)
       hold(captured, own);
+    const auto pull = pulls(step.begin, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       move_with_dashpot(step, captured[this->captured_positions[i]],
-                        dashpots[i].damping, pull(i, incident, own), state);
+                        dashpots[i].damping, pull[i], state);
   }
 
   template <int dim>
@@ -310,13 +328,13 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const auto incident = component_values(components, step.begin);
     const ViscousBoundaryState<dim> &own
         = state.template get<ViscousBoundaryState<dim>>(this->load_name);
+    const auto pull      = pulls(step.begin, own);
     this->last_resultant = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       account_for_dashpot(step, captured[this->captured_positions[i]],
-                          dashpots[i].damping, pull(i, incident, own), this,
+                          dashpots[i].damping, pull[i], this,
                           this->last_resultant, state);
   }
 

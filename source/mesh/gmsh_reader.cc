@@ -193,14 +193,15 @@ namespace quoin
                                      const MeshDimension dimension,
                                      const CellOptions &cells)
   {
+    const std::string cure
+        = maker.rfind("section ", 0) == 0
+              ? "Change the parameters of that section."
+              : "Correct the blocks in the program that wrote the file.";
     return read_on_first_rank(communicator,
                               [&]()
                               {
-                                return read(
-                                    "/dev/stdin", geometry, maker,
-                                    "Change the parameters of that section "
-                                    "or the blocks of that file.",
-                                    dimension, cells);
+                                return read("/dev/stdin", geometry, maker, cure,
+                                            dimension, cells);
                               });
   }
 

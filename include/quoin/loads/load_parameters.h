@@ -123,6 +123,13 @@ namespace quoin
 
     /** Viscous boundary: material beyond; empty: that of the cells there. */
     std::string far_material;
+    /** Viscous boundary in three dimensions: direction in which incident waves
+        propagate [-]; none: along the normal. A place that they pass at t = 0
+        [m]; none: where they reach the boundary. Height of a free surface that
+        reflects them [m]; none: there is none. */
+    std::optional<dealii::Tensor<1, 3>> wave_direction;
+    std::optional<dealii::Point<3>> wave_origin;
+    std::optional<double> free_surface;
     std::string
         base; /**< free field: load that drives the foot of the column */
 

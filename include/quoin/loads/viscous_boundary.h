@@ -12,15 +12,19 @@
 #include <quoin/mesh/global_geometry.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace quoin
 {
+  class PlaneWaveForces;
+
   /** Impedances of a material [Pa s/m]: rho c of P and S waves. */
   struct Impedance
   {
     double normal;
     double shear;
+    double density = 0.; /**< [kg/m^3] */
   };
 
   Impedance impedance_of(const LinearElastic &material,
@@ -140,6 +144,10 @@ namespace quoin
    * nodes at its first step, without those of loads that begin with it, are
    * held from then on: they are the reactions of the support that it replaces.
    * In the first stage of a run nothing is held.
+   *
+   * In three dimensions incident waves may be plane waves of any direction: the
+   * traction is rho c (v_incident - v) and that of the stress of the wave, so
+   * that it passes as if there were no boundary; see PlaneWaves.
    */
   template <int dim>
   class ViscousBoundary : public MotionConstraint<dim>
@@ -154,6 +162,7 @@ namespace quoin
                     const NodeMap<dim> &node_map,
                     const std::vector<Impedance> &impedance,
                     const Thickness &thickness);
+    ~ViscousBoundary() override;
 
     void prepare(State<dim> &state) const override;
     void begin_stage(State<dim> &state, bool continues) override;
@@ -171,13 +180,14 @@ namespace quoin
   private:
     void hold(const std::vector<CapturedNode<dim>> &captured,
               ViscousBoundaryState<dim> &own) const;
-    /** Force of the incident wave and held force on the i-th node [N]. */
-    dealii::Tensor<1, dim> pull(unsigned int i,
-                                const std::array<double, 3> &incident,
-                                const ViscousBoundaryState<dim> &own) const;
+    /** Forces of incident waves at @p time and held forces on the nodes [N]. */
+    std::vector<dealii::Tensor<1, dim>>
+    pulls(const TimePoint &time, const ViscousBoundaryState<dim> &own) const;
 
     std::array<LoadComponent, 3> components;
     std::vector<Dashpot<dim>> dashpots;
+    /** Null: waves come along the normal. */
+    std::unique_ptr<const PlaneWaveForces> plane_waves;
   };
 } // namespace quoin
 

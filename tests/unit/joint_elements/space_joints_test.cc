@@ -128,8 +128,12 @@ namespace
       add_forces_by_point(law, stack, history, energy, force);
 
       const double unit = reach * kn * 0.04;
+      // Rock joints grow far stiffer than that where they close.
+      double largest = unit;
+      for (const Vector &f : force)
+        largest = std::max(largest, f.norm());
       for (unsigned int v = 0; v < force.size(); ++v)
-        EXPECT_NEAR((stack.force[v] - force[v]).norm(), 0., 1e-13 * unit);
+        EXPECT_NEAR((stack.force[v] - force[v]).norm(), 0., 1e-13 * largest);
       const SpaceJointHistory &now = stack.history();
       for (unsigned int p = 0; p < 3 * n_faces; ++p)
       {
