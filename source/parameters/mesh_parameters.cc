@@ -140,7 +140,9 @@ namespace quoin
         section.fail("Element size",
                      "must be greater than 0 for the blocks of a .obj, .stl or "
                      ".3dgrid file, whose faces say nothing of the mesh.");
-      const BlockSurfaces blocks = read_block_surfaces(parameters.mesh_file);
+      const BlockSurfaces blocks
+          = naming(section.file(),
+                   [&]() { return read_block_surfaces(parameters.mesh_file); });
       const GmshGeometry geometry
           = block_geometry(blocks, parameters.element_size);
       parameters.generated
@@ -281,7 +283,7 @@ namespace quoin
                      "is for blocks of a .obj, .stl or .3dgrid file; a "
                      "geometry or a mesh of gmsh has its own. Set it to 0.");
       if (is_surface)
-        naming(top.file(), [&]() { read_blocks(section, parameters); });
+        read_blocks(section, parameters);
     }
     else if (parameters.split.joints_along.empty())
       parameters.split.joints_along = joints_of_layout;
