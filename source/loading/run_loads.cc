@@ -4,12 +4,12 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/loading/run_loads.h>
-#include <quoin/loads/free_field_boundary.h>
+#include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/joint_crack.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/space_platen.h>
 #include <quoin/loads/prescribed_motion.h>
-#include <quoin/loads/viscous_boundary.h>
+#include <quoin/absorbing/viscous_boundary.h>
 #include <quoin/model/material_waves.h>
 
 #include <algorithm>

@@ -107,6 +107,29 @@ class Space(Says):
         self.assertEqual(canvas.image[middle, middle].tolist(), [0., 0., 1.])
         self.assertEqual(canvas.image[-1, -1].tolist(), [1., 1., 1.])
 
+    def test_principal_stresses(self):
+        # 3 MPa along (1, 1, 0), -2 MPa along z, -1 MPa across both
+        way = np.array([1., 1., 0.]) / np.sqrt(2)
+        across = np.array([1., -1., 0.]) / np.sqrt(2)
+        tensor = (3e6 * np.outer(way, way) - 1e6 * np.outer(across, across)
+                  - 2e6 * np.diag([0., 0., 1.]))
+        stress = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        blocks = Grid(0., self.corners, np.array([[0, 1, 2, 3], [1, 2, 3, 4]]),
+                      {}, {"stress": np.tile(stress, (2, 1))})
+        values, directions = space_figure.SpaceCrosses.principal(blocks)
+        np.testing.assert_allclose(values, [[-2e6, -1e6, 3e6]] * 2)
+        self.assertAlmostEqual(abs(directions[0, :, 2] @ way), 1.)
+        self.assertAlmostEqual(abs(directions[1, 2, 0]), 1.)
+
+    def test_crosses_stand_on_what_is_seen(self):
+        canvas = space_figure.Canvas(np.zeros(2), np.ones(2))
+        triangle = np.array([[0., 0., 1.], [1., 0., 1.], [0., 1., 1.]])
+        canvas.add_triangle(triangle, [0., 0., 1.], 7)
+        canvas.add_triangle(triangle - [0., 0., 2.], [1., 0., 0.], 8)
+        middle = space_figure.PIXELS // 4
+        self.assertEqual((canvas.cell[middle, middle], canvas.cell[-1, -1]),
+                         (7, -1))
+
     def test_states_of_faces(self):
         joints = Grid(0., self.corners[1:4] + 0.1, np.array([[0, 1, 2]]),
                       {"displacement": np.full((3, 3), 0.1)},

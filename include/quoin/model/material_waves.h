@@ -4,8 +4,8 @@
 #ifndef quoin_model_material_waves_h
 #define quoin_model_material_waves_h
 
-#include <quoin/loads/free_field_column.h>
-#include <quoin/loads/viscous_boundary.h>
+#include <quoin/absorbing/free_field_column.h>
+#include <quoin/absorbing/viscous_boundary.h>
 #include <quoin/model/model.h>
 
 #include <vector>

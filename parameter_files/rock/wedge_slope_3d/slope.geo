@@ -41,11 +41,12 @@ ground() = Volume{:};
 ground() -= wedge(0);
 Physical Volume("ground") = ground();
 e = 1e-3;
-Physical Surface("outer") = {
+Physical Surface("east and west") = {
   Surface In BoundingBox {-7 - e, -5.5 - e, -12 - e, -7 + e, 8 + e, e},
-  Surface In BoundingBox {7 - e, -5.5 - e, -12 - e, 7 + e, 8 + e, e},
+  Surface In BoundingBox {7 - e, -5.5 - e, -12 - e, 7 + e, 8 + e, e}};
+Physical Surface("north and south") = {
   Surface In BoundingBox {-7 - e, 8 - e, -12 - e, 7 + e, 8 + e, e},
-  Surface In BoundingBox {-7 - e, -5.5 - e, -12 - e, 7 + e, -5.5 + e, -8 + e},
-  Surface In BoundingBox {-7 - e, -5.5 - e, -12 - e, 7 + e, 8 + e, -12 + e}};
+  Surface In BoundingBox {-7 - e, -5.5 - e, -12 - e, 7 + e, -5.5 + e, -8 + e}};
+Physical Surface("base") = Surface In BoundingBox {-7 - e, -5.5 - e, -12 - e, 7 + e, 8 + e, -12 + e};
 Mesh.MeshSizeMin = size;
 Mesh.MeshSizeMax = size;

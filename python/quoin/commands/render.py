@@ -48,6 +48,9 @@ compression, red is tension, the length is the magnitude, in the scale of the
 bar below. --colour stress fills the blocks with contours of the minor, that is
 most compressive, principal stress. Both are averaged at the nodes of a block.
 
+Of blocks in three dimensions they stand on what is seen of these, their arms in
+the directions of all three stresses.
+
 Blocks in three dimensions are seen from --camera; --cut draws what lies on one
 side of a plane, --explode moves them apart. Their faces at joints have the colours
 of joints where these open or slip.

@@ -2,20 +2,23 @@
 # Copyright (C) 2026 The quoin authors
 """Pictures of blocks in three dimensions for scripts/render: their surfaces,
 seen along parallel lines, perhaps cut or moved apart, with the states of their
-joints on the faces of these."""
+joints on the faces of these, and crosses of the principal stresses there."""
 
 import os
 
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize, to_rgb
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 import numpy as np
 
 from quoin import joint_states, vtu
-from quoin.colours import MATERIALS, ORANGE, RED, YELLOW
-from quoin.csv_table import scale_for
+from quoin.colours import (COMPRESSION, MATERIALS, ORANGE, RED, TENSION,
+                           YELLOW)
+from quoin.csv_table import scale_for, with_unit
 from quoin.figures.block_figure import PER, block_colours, round_down
 from quoin.figures.figure_style import MAGNITUDES, STRESSES
+from quoin.figures.stress_figure import LONGEST, round_near
 from quoin.shared_motion import enlarged, shared_motion
 
 SIDES = ([1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1])  # normals outwards
@@ -131,13 +134,14 @@ class Canvas:
         self.per_metre = PIXELS / (high - low).max()
         size = np.ceil((high - low) * self.per_metre).astype(int) + 1
         self.nearness = np.full(size[::-1], -np.inf)
+        self.cell = np.full(size[::-1], -1)   # whose face is seen there
         self.image = np.ones((size[1], size[0], 3))
 
     def pixels(self, corners):
         return np.column_stack([(corners[:, :2] - self.low) * self.per_metre,
                                 corners[:, 2]])
 
-    def add_triangle(self, corners, colour):
+    def add_triangle(self, corners, colour, cell=-1):
         a, b, c = self.pixels(corners)
         flat = np.array([a, b, c])[:, :2]
         first = np.maximum(np.floor(flat.min(axis=0)).astype(int), 0)
@@ -156,6 +160,7 @@ class Canvas:
                  & (z > self.nearness[here]))
         self.nearness[here][shown] = z[shown]
         self.image[here][shown] = colour
+        self.cell[here][shown] = cell
 
     def add_line(self, ends, colour, width, lift):
         """@p lift: how much nearer it is taken to be [m]."""
@@ -173,11 +178,82 @@ class Canvas:
                 self.image[y[shown], x[shown]] = colour
 
 
+class SpaceCrosses:
+    """Crosses of the principal stresses on what is seen of the blocks, seen from
+    where these are, in all frames of a figure with one scale. Stresses are averaged
+    at the nodes, never across a joint, and then in the cells."""
+
+    def __init__(self, frames, n_across):
+        self.n_across = n_across
+        sizes = [np.abs(self.principal(f.blocks)[0]).max(axis=1)
+                 for f in frames]
+        largest = max(size.max() for size in sizes)
+        # The few crosses at a corner must not make all others invisible.
+        self.reference = round_near(
+            max(np.quantile(size, 0.9) for size in sizes) or largest)
+        self.is_cut = largest > LONGEST * self.reference
+
+    @staticmethod
+    def principal(blocks):
+        """Principal stresses of the cells [Pa], (n, 3), and their directions, the
+        columns of (n, 3, 3)."""
+        cells, x = blocks.cells, blocks.points
+        edges = x[cells[:, 1:]] - x[cells[:, :1]]
+        volume = np.abs(np.linalg.det(edges)) / 6.0
+        xx, yy, zz, xy, xz, yz = blocks.cell_data["stress"].T
+        tensor = np.stack([xx, xy, xz, xy, yy, yz, xz, yz, zz], axis=1)
+
+        def at_nodes(values):
+            return np.bincount(cells.ravel(), np.repeat(values, 4),
+                               minlength=len(x))
+
+        weight = np.maximum(at_nodes(volume), 1e-300)
+        nodal = np.stack([at_nodes(volume * t) / weight for t in tensor.T],
+                         axis=1)
+        return np.linalg.eigh(nodal[cells].mean(axis=1).reshape(-1, 3, 3))
+
+    def draw(self, axes, canvas, blocks, page, lift):
+        """Adds the crosses to what is on @p canvas, and the reference stress as a
+        bar to @p axes; returns the handles of the legend."""
+        height, width = canvas.cell.shape
+        step = max(height, width) / self.n_across
+        spacing = step / canvas.per_metre
+        values, directions = self.principal(blocks)
+        half = 0.45 * spacing / self.reference
+        most = LONGEST * self.reference
+        for y in np.arange(0.5 * step, height, step).astype(int):
+            for x in np.arange(0.5 * step, width, step).astype(int):
+                cell = canvas.cell[y, x]
+                if cell < 0:
+                    continue
+                centre = np.append(canvas.low
+                                   + np.array([x, y]) / canvas.per_metre,
+                                   canvas.nearness[y, x])
+                for s, way in zip(values[cell], directions[cell].T):
+                    arm = (half * min(abs(s), most)) * (page @ way)
+                    arm[2] = 0.0
+                    ends = np.array([centre - arm, centre + arm])
+                    colour = to_rgb(COMPRESSION if s < 0.0 else TENSION)
+                    canvas.add_line(ends, 1.0, 5, lift)
+                    canvas.add_line(ends, colour, 3, lift)
+        length = 2.0 * half * self.reference
+        x, y = canvas.low + 0.2 * spacing
+        axes.plot([x, x + length], [y, y], color=COMPRESSION, linewidth=1.2,
+                  solid_capstyle="butt", zorder=5)
+        text = with_unit(self.reference, "Pa")
+        if self.is_cut:
+            text += f", cut at {with_unit(most, 'Pa')}"
+        axes.text(x + 1.4 * length, y, text, fontsize=7.5, va="center",
+                  zorder=5)
+        return [Line2D([], [], color=COMPRESSION, label="compression"),
+                Line2D([], [], color=TENSION, label="tension")]
+
+
 class SpacePicture:
     """Draws frames with one scale, one view and one range of colours."""
 
     def __init__(self, options, frames):
-        for name in ("principal", "view", "since"):
+        for name in ("view", "since"):
             if getattr(options, name):
                 raise ValueError(f"--{name} is for two dimensions; these take "
                                  "--camera, --cut and --explode")
@@ -191,6 +267,7 @@ class SpacePicture:
         self.towards = np.array([c * np.cos(elevation), s * np.cos(elevation),
                                  np.sin(elevation)])
         self.up = np.cross(self.towards, self.right)
+        self.page = np.array([self.right, self.up, self.towards])
         self.light = self.towards + 0.5 * self.up + 0.4 * self.right
         self.light /= np.linalg.norm(self.light)
         self.scale = options.scale or min(self.automatic_scale(f)
@@ -210,8 +287,12 @@ class SpacePicture:
                 self.values = Normalize(0.0, self.factor * largest or 1.0,
                                         clip=True)
         self.is_panel = len(frames) > 1
+        self.crosses = None
+        if options.principal:
+            self.crosses = SpaceCrosses(
+                frames, options.crosses or (20 if self.is_panel else 32))
         places = np.concatenate([np.concatenate(
-            [p[:, :2] for p, _ in self.shapes(f)[0]]) for f in frames])
+            [p[:, :2] for p, _, _ in self.shapes(f)[0]]) for f in frames])
         self.low, self.high = places.min(axis=0), places.max(axis=0)
         self.extent = self.high - self.low
 
@@ -253,8 +334,8 @@ class SpacePicture:
         return x + self.options.explode * (centre[block] - x.mean(axis=0))
 
     def shapes(self, frame):
-        """(corners on the page and their nearness, colour) of faces, and (ends,
-        whether it is sharp) of edges."""
+        """(corners on the page and their nearness, colour, cell) of faces, and
+        (ends, whether it is sharp) of edges."""
         blocks = frame.blocks
         X = blocks.points
         x = self.apart(blocks, frame.position(self.scale))
@@ -269,18 +350,18 @@ class SpacePicture:
                            x[faces[:, 2]] - x[faces[:, 0]])
         normals /= np.maximum(np.linalg.norm(normals, axis=1),
                               1e-300)[:, None]
-        page = np.array([self.right, self.up, self.towards])
+        page = self.page
         cut = self.options.cut
         heights = (None if cut is None
                    else cut.sign * (X[:, cut.axis] - cut.value))
         found, lines = [], []
 
-        def add(corners, colour, normal):
+        def add(corners, colour, normal, cell):
             light = np.clip(normal @ self.light, 0.0, 1.0)
             found.append((corners @ page.T,
-                          colour * (DARKEST + (1 - DARKEST) * light)))
+                          colour * (DARKEST + (1 - DARKEST) * light), cell))
 
-        for face, colour, normal in zip(faces, shade, normals):
+        for face, colour, normal, cell in zip(faces, shade, normals, owner):
             if normal @ self.towards <= 0.0:
                 continue
             corners = x[face]
@@ -288,14 +369,14 @@ class SpacePicture:
                 corners = clipped(corners, heights[face])
                 if len(corners) < 3:
                     continue
-            add(corners, colour, normal)
+            add(corners, colour, normal, cell)
         if heights is not None:
             above = heights[blocks.cells] > 0
             for k in np.flatnonzero(above.any(axis=1) & ~above.all(axis=1)):
                 normal = np.zeros(3)
                 normal[cut.axis] = cut.sign
                 add(section(x[blocks.cells[k]], heights[blocks.cells[k]]),
-                    colours[k], normal)
+                    colours[k], normal, k)
         edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]],
                                         faces[:, [2, 0]]]), axis=1)
         order = np.lexsort((edges[:, 1], edges[:, 0]))
@@ -323,21 +404,23 @@ class SpacePicture:
         low, high = self.low - margin, self.high + margin
         canvas = Canvas(low, high)
         faces, lines = self.shapes(frame)
-        for corners, colour in faces:
+        for corners, colour, cell in faces:
             for k in range(1, len(corners) - 1):
-                canvas.add_triangle(corners[[0, k, k + 1]], colour)
+                canvas.add_triangle(corners[[0, k, k + 1]], colour, cell)
         for ends, is_sharp in lines:
             canvas.add_line(ends, 0.2 if is_sharp else 0.6,
                             3 if is_sharp else 1, 0.004 * self.extent.max())
+        handles = [] if not self.crosses else self.crosses.draw(
+            axes, canvas, frame.blocks, self.page, 0.5 * self.extent.max())
         axes.imshow(canvas.image, origin="lower",
                     extent=(low[0], high[0], low[1], high[1]),
                     interpolation="antialiased")
         axes.set_aspect("equal")
         axes.set_axis_off()
         if self.options.blocks_only or frame.joints is None:
-            return []
+            return handles
         present = frame.joints.cell_data["state"]
-        return [Patch(color=colour, label=joint_states.NAMES[state])
+        return handles + [Patch(color=colour, label=joint_states.NAMES[state])
                 for state, colour in STATES.items() if (present == state).any()]
 
     def caption(self, frame, digits="4g"):

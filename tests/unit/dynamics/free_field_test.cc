@@ -6,7 +6,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/initial_energy.h>
-#include <quoin/loads/free_field_boundary.h>
+#include <quoin/absorbing/free_field_boundary.h>
 
 using namespace quoin;
 using namespace quoin::test;

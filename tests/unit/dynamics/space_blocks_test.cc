@@ -13,11 +13,11 @@
 #include <quoin/dynamics/central_differences.h>
 #include <quoin/dynamics/kinetic_energy.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/loads/free_field_boundary.h>
+#include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/space_platen.h>
-#include <quoin/loads/viscous_boundary.h>
+#include <quoin/absorbing/viscous_boundary.h>
 #include <quoin/mesh/partition.h>
 
 #include <deal.II/physics/transformations.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_loads_free_field_column_h
-#define quoin_loads_free_field_column_h
+#ifndef quoin_absorbing_free_field_column_h
+#define quoin_absorbing_free_field_column_h
 
 #include <quoin/base/thickness.h>
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/viscous_boundary.h>
+#include <quoin/absorbing/viscous_boundary.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/operators/step_context.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_loads_plane_waves_h
-#define quoin_loads_plane_waves_h
+#ifndef quoin_absorbing_plane_waves_h
+#define quoin_absorbing_plane_waves_h
 
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/viscous_boundary.h>
+#include <quoin/absorbing/viscous_boundary.h>
 
 #include <vector>
 

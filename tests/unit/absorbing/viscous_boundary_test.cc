@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "boundary_square.h"
+#include "../loads/boundary_square.h"
 
-#include <quoin/loads/viscous_boundary.h>
+#include <quoin/absorbing/viscous_boundary.h>
 
 #include <gtest/gtest.h>
 

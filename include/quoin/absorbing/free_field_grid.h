@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_loads_free_field_grid_h
-#define quoin_loads_free_field_grid_h
+#ifndef quoin_absorbing_free_field_grid_h
+#define quoin_absorbing_free_field_grid_h
 
-#include <quoin/loads/free_field_column.h>
+#include <quoin/absorbing/free_field_column.h>
 
 #include <map>
 #include <set>

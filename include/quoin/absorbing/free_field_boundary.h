@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_loads_free_field_boundary_h
-#define quoin_loads_free_field_boundary_h
+#ifndef quoin_absorbing_free_field_boundary_h
+#define quoin_absorbing_free_field_boundary_h
 
-#include <quoin/loads/free_field_grid.h>
+#include <quoin/absorbing/free_field_grid.h>
 #include <quoin/loads/motion_constraint.h>
 
 #include <array>

@@ -6,7 +6,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/plane_waves.h>
+#include <quoin/absorbing/plane_waves.h>
 
 #include <Eigen/LU>
 

@@ -4,7 +4,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/packed_vectors.h>
 #include <quoin/operators/archive.h>
-#include <quoin/loads/free_field_boundary.h>
+#include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
 

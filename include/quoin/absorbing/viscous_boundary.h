@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_loads_viscous_boundary_h
-#define quoin_loads_viscous_boundary_h
+#ifndef quoin_absorbing_viscous_boundary_h
+#define quoin_absorbing_viscous_boundary_h
 
 #include <quoin/base/thickness.h>
 #include <quoin/loads/load_parameters.h>

@@ -6,9 +6,9 @@
 #include <quoin/base/number_text.h>
 #include <quoin/operators/archive.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/plane_waves.h>
+#include <quoin/absorbing/plane_waves.h>
 #include <quoin/loads/prescribed_motion.h>
-#include <quoin/loads/viscous_boundary.h>
+#include <quoin/absorbing/viscous_boundary.h>
 
 #include <Eigen/Cholesky>
 

@@ -3,7 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/packed_vectors.h>
-#include <quoin/loads/free_field_column.h>
+#include <quoin/absorbing/free_field_column.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include <quoin/base/number_text.h>
 #include <quoin/base/packed_vectors.h>
-#include <quoin/loads/free_field_grid.h>
+#include <quoin/absorbing/free_field_grid.h>
 #include <quoin/loads/nodal_load.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/loads/plane_waves.h>
+#include <quoin/absorbing/plane_waves.h>
 
 #include <gtest/gtest.h>
 
