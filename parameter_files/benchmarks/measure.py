@@ -20,7 +20,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 WALLS = "../masonry/tue_walls/"
 
-# (name, parameter file, overrides)
+# (name, parameter file, overrides); "space" is in the names of those in three
+# dimensions that have joints.
 BENCHMARKS = [
     ("blocks", "blocks/case.prm", []),
     ("blocks, 2 million", "blocks/case.prm",
@@ -33,6 +34,12 @@ BENCHMARKS = [
      ["Joints/mortar/Law=Coulomb", "Joints/mortar/Cohesion=0",
       "Joints/mortar/Tensile strength=0", "Joints/mortar/Friction angle=5",
       "Loads/press/Horizontal=velocity 2 * min(1, t / 0.0005)"]),
+    ("tetrahedra", "tetrahedra/case.prm", []),
+    ("tetrahedra, mixed", "tetrahedra/case.prm",
+     ["Mesh/Tetrahedra=mixed", "Mesh/File=cube_coarse.geo"]),
+    ("space joints, composite, sticking", "space_joints/case.prm", []),
+    ("space joints, Coulomb, sticking", "space_joints/case.prm",
+     ["Joints/mortar/Law=Coulomb"]),
     ("wall J4D to 1 mm", WALLS + "j4d.prm", ["Stages/push/Duration=0.05"]),
     ("contacts of rigid blocks", "contacts/case.prm", []),
     ("contacts of deformable blocks", "../verification/pile/case.prm", []),
@@ -72,7 +79,7 @@ def row(name, best):
     first = best[0]
     step = seconds_a_step(first)
     shares = first.get("time shares", {})
-    n_points = 2 * first.get("joint faces", 0)
+    n_points = (3 if "space" in name else 2) * first.get("joint faces", 0)
     joint = (1e9 * shares.get("joints", 0) * step / n_points
              if n_points else 0)
     contacts = first.get("contact updates per second", 0) / 1e6
@@ -100,8 +107,8 @@ def main():
     parser.add_argument("--only", default="")
     options = parser.parse_args()
     quoins = [options.quoin] + ([options.against] if options.against else [])
-    names = ["benchmark", "triangles", "joint points", "steps", "step [us]",
-             "million triangles a second", "joint point [ns]",
+    names = ["benchmark", "cells", "joint points", "steps", "step [us]",
+             "million cells a second", "joint point [ns]",
              "million contact updates a second", "of the memory bandwidth"]
     names += ["times as fast"] if options.against else []
     print("| " + " | ".join(names) + " |\n" + "|" + "---|" * len(names))
