@@ -3,10 +3,10 @@
 # Copyright (C) 2026 The quoin authors
 """A plane pulse through linear joints across its way, by characteristics.
 
-At a joint with the waves a from below and b from above the stress is s = k o, o
-the opening; a - s'/z... in velocities: below it goes back b + a - (a - s/z) and
-beyond it goes a on: with z = rho c the velocities are 2 a + s/z below and 2 b - s/z
-above, so that o' = 2 (b - a) - 2 s/z. Waves travel unchanged between joints.
+Where a wave of the velocity a meets a joint from below and one of b from above,
+its stress is s = k o with the opening o; with z = rho c the waves that leave it
+have a + s/z downwards and b - s/z upwards, so that o' = 2 (b - a) - 2 s/z. They
+travel unchanged between joints.
 """
 import os
 
