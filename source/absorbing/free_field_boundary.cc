@@ -126,21 +126,27 @@ namespace quoin
                           + ": it must be the load on the boundary below.");
     }
 
-    /** Impedances below the nodes of the base, 0 where motion is prescribed;
-        where no side can stand, on faces that are not horizontal, none. */
-    std::map<FreeFieldGrid::Place, Impedance>
+    /** Impedances below the nodes of the base, 0 where motion is prescribed,
+        none where different ones meet; where no side can stand, on faces that
+        are not horizontal, no entry. */
+    std::map<FreeFieldGrid::Place, std::optional<Impedance>>
     impedances_below(const std::vector<BoundaryFace<3>> &base_faces,
                      const FreeFieldBase &given, const bool is_prescribed)
     {
-      std::map<FreeFieldGrid::Place, Impedance> result;
+      std::map<FreeFieldGrid::Place, std::optional<Impedance>> result;
       for (const BoundaryFace<3> &face : base_faces)
       {
         const auto outward = outward_area(face.points);
         if (std::hypot(outward[0], outward[1]) <= same_share * outward.norm())
           for (const auto &p : face.points)
-            result.insert({ { { p[0], p[1], p[2] } },
-                            is_prescribed ? Impedance{ 0., 0. }
-                                          : given.impedance[face.group] });
+          {
+            const Impedance z = is_prescribed ? Impedance{ 0., 0. }
+                                              : given.impedance[face.group];
+            auto &known
+                = result.try_emplace({ { p[0], p[1], p[2] } }, z).first->second;
+            if (known && (known->normal != z.normal || known->shear != z.shear))
+              known.reset();
+          }
       }
       return result;
     }

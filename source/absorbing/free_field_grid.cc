@@ -25,11 +25,11 @@ namespace quoin
     }
   } // namespace
 
-  FreeFieldGrid::FreeFieldGrid(const std::string &load,
-                               const std::vector<BoundaryFace<3>> &faces,
-                               const FreeFieldGround &ground,
-                               const std::map<Place, Impedance> &base,
-                               const std::string &base_name)
+  FreeFieldGrid::FreeFieldGrid(
+      const std::string &load, const std::vector<BoundaryFace<3>> &faces,
+      const FreeFieldGround &ground,
+      const std::map<Place, std::optional<Impedance>> &base,
+      const std::string &base_name)
     : load(load)
   {
     make_triangles(faces, ground);
@@ -37,16 +37,14 @@ namespace quoin
     make_foot(edges, base, base_name);
 
     // The ends are the first and last places along the side.
-    const auto way = [&](const unsigned int node) {
-      return along * Vector({ places[node][0], places[node][1], 0. });
-    };
-    double ends[2] = { std::numeric_limits<double>::max(),
-                       std::numeric_limits<double>::lowest() };
+    std::array<double, 2> ends = { { std::numeric_limits<double>::max(),
+                                     std::numeric_limits<double>::lowest() } };
     for (unsigned int i = 0; i < places.size(); ++i)
     {
       ends[0] = std::min(ends[0], way(i));
       ends[1] = std::max(ends[1], way(i));
     }
+    refuse_gaps(edges, ends);
     for (const unsigned int end : { 0, 1 })
     {
       std::vector<Edge> at_end;
@@ -62,6 +60,41 @@ namespace quoin
         dashpots[tie.node].damping[k] += tie.dashpot.damping[k];
     force.resize(places.size());
     mean_velocity.resize(places.size());
+  }
+
+  double FreeFieldGrid::way(const unsigned int node) const
+  {
+    return along * Vector({ places[node][0], places[node][1], 0. });
+  }
+
+  void FreeFieldGrid::refuse_gaps(const std::vector<Edge> &outline,
+                                  const std::array<double, 2> &ends) const
+  {
+    const double near = same_place_share * size;
+    for (const Edge &edge : outline)
+    {
+      const auto &[a, b]  = edge.nodes;
+      const double length = way(b) - way(a);
+      bool is_open;
+      if (std::abs(length) < near) // vertical
+        is_open
+            = std::min(std::abs(way(a) - ends[0]), std::abs(way(a) - ends[1]))
+              < near;
+      else
+      {
+        const double share = (way(edge.opposite) - way(a)) / length;
+        const double below
+            = places[a][2] + share * (places[b][2] - places[a][2]);
+        is_open
+            = places[edge.opposite][2] < below || places[b][2] - foot <= near;
+      }
+      if (!is_open)
+        fail_free_field(load, "Boundary",
+                        "has a gap, a hole or a step in its foot at "
+                            + place_text(a)
+                            + ": the ground beside the model goes on there. "
+                              "Make the side one piece on one foot.");
+    }
   }
 
   std::string FreeFieldGrid::place_text(const unsigned int node) const
@@ -121,29 +154,34 @@ namespace quoin
   std::vector<FreeFieldGrid::Edge>
   FreeFieldGrid::outline(const std::vector<BoundaryFace<3>> &faces) const
   {
-    std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> edges;
+    struct Side
+    {
+      unsigned int group, opposite;
+    };
+    std::map<std::array<unsigned int, 2>, std::vector<Side>> edges;
     for (unsigned int f = 0; f < faces.size(); ++f)
       for (unsigned int k = 0; k < 3; ++k)
       {
         const unsigned int a = node_of(f, k), b = node_of(f, (k + 1) % 3);
-        edges[{ { std::min(a, b), std::max(a, b) } }].push_back(faces[f].group);
+        edges[{ { std::min(a, b), std::max(a, b) } }].push_back(
+            { faces[f].group, node_of(f, (k + 2) % 3) });
       }
     std::vector<Edge> result;
-    for (const auto &[nodes, groups] : edges)
-      if (groups.size() == 1)
+    for (const auto &[nodes, sides] : edges)
+      if (sides.size() == 1)
       {
-        const auto &[a, b] = nodes;
-        if (places[a][2] <= places[b][2])
-          result.push_back({ { { a, b } }, groups[0] });
-        else
-          result.push_back({ { { b, a } }, groups[0] });
+        auto [a, b] = nodes;
+        if (places[a][2] > places[b][2])
+          std::swap(a, b);
+        result.push_back({ { { a, b } }, sides[0].group, sides[0].opposite });
       }
     return result;
   }
 
-  void FreeFieldGrid::make_foot(const std::vector<Edge> &outline,
-                                const std::map<Place, Impedance> &base,
-                                const std::string &base_name)
+  void FreeFieldGrid::make_foot(
+      const std::vector<Edge> &outline,
+      const std::map<Place, std::optional<Impedance>> &base,
+      const std::string &base_name)
   {
     for (const Edge &edge : outline)
     {
@@ -163,7 +201,14 @@ namespace quoin
                               + place_text(node)
                               + ": it must be the load on the boundary "
                                 "below.");
-        const Impedance &z = found->second;
+        if (!found->second)
+          fail_free_field(load, "Base",
+                          "is '" + base_name
+                              + "', before different materials at the foot of "
+                                "the side at "
+                              + place_text(node)
+                              + ". Name one as its 'Far field material'.");
+        const Impedance &z = *found->second;
         Support &support   = supports[node];
         support.impedance  = Vector({ z.shear, z.shear, z.normal });
         support.width += 0.5 * width;

@@ -164,13 +164,29 @@ namespace quoin
       const Impedance &medium = impedance[faces.front().group];
       for (const BoundaryFace<3> &face : faces)
         if (const Impedance &z = impedance[face.group];
-            z.normal != medium.normal || z.shear != medium.shear)
+            z.normal != medium.normal || z.shear != medium.shear
+            || z.density != medium.density)
           throw InputError(
               section_of(load)
               + "a plane wave with an 'Incident direction' passes one medium, "
                 "but different materials stand at the boundary. Name that of "
                 "the medium as 'Far field material', or let the wave rise "
                 "vertically, without a direction.");
+    }
+
+    void refuse_low_surface(const LoadParameters &load,
+                            const std::vector<BoundaryFace<3>> &faces)
+    {
+      if (!load.free_surface)
+        return;
+      for (const BoundaryFace<3> &face : faces)
+        for (const dealii::Point<3> &p : face.points)
+          if (p[2] > *load.free_surface + 1e-6 * std::abs(p[2]))
+            throw InputError(text_of(
+                section_of(load), "'Free surface = ", *load.free_surface,
+                "' is below (", p[0], ", ", p[1], ", ", p[2],
+                ") m of the boundary. Give the height of the ground above the "
+                "model."));
     }
 
     void refuse_late_origin(const LoadParameters &load,
@@ -212,6 +228,7 @@ namespace quoin
                                    const std::vector<unsigned int> &nodes)
   {
     refuse_other_media(load, faces, impedance);
+    refuse_low_surface(load, faces);
     LoadParameters placed = load;
     if (!load.wave_origin)
       placed.wave_origin = first_place(load, faces);

@@ -6,6 +6,7 @@
 #include <quoin/layout/block_surfaces.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -194,6 +195,8 @@ namespace quoin
       Numbers result;
       for (int number; line.words >> number;)
         result.push_back(number);
+      if (!line.words.eof())
+        line.fail("there is a word that is no integer.");
       return result;
     }
 
@@ -392,8 +395,10 @@ namespace quoin
     FacetSoup soup        = end == ".obj"   ? read_obj(file)
                             : end == ".stl" ? read_stl(file)
                                             : read_3dec_grid(file);
-    if (soup.facets.empty())
-      throw InputError("Mesh '" + file + "': there is no block in it.");
+    for (const Point &p : soup.points)
+      if (!std::isfinite(p.norm()))
+        throw InputError("Mesh '" + file
+                         + "': a coordinate is no finite number.");
     return closed_surfaces(soup, file);
   }
 
@@ -404,6 +409,8 @@ namespace quoin
     text.precision(17);
     const auto box         = box_of(blocks.points);
     const double tolerance = 1e-6 * box.first.distance(box.second);
+    // OpenCASCADE enlarges the boxes of surfaces by 1e-7.
+    const double at_side = std::max(tolerance, 1e-6);
     text << "// Blocks; joints have no thickness.\n"
             "SetFactory(\"OpenCASCADE\");\n"
             "DefineConstant[ size = {"
@@ -424,9 +431,11 @@ namespace quoin
     text << made.text();
     // Faces that touch are cut along the outlines of both.
     text << "Geometry.ToleranceBoolean = " << tolerance
-         << ";\nCoherence;\nblocks() = Volume{:};\nIf (#blocks() != "
-         << blocks.blocks.size()
-         << ")\n  Error(\"blocks overlap\");\nEndIf\n"
+         << ";\nCoherence;\nother() = Volume{:};\nn = #other();\nother() -= {1 "
+            ": "
+         << blocks.blocks.size() << "};\nIf (n != " << blocks.blocks.size()
+         << " || #other() > 0)\n"
+            "  Error(\"blocks overlap, or one is hollow\");\nEndIf\n"
             // Faces with holes are left over beside those of their volumes.
             "joint() = Unique(Abs(Boundary{ Volume{:}; }));\n"
             "left_over() = Surface{:};\nleft_over() -= joint();\n"
@@ -439,7 +448,7 @@ namespace quoin
       text << "Physical Volume(\"" << group << "\") = " << braces(volumes)
            << ";\n";
     for (unsigned int side = 0; side < 6; ++side)
-      write_side(box, side, tolerance, text);
+      write_side(box, side, at_side, text);
     text << "Mesh.MeshSizeMax = size;\n";
     GmshGeometry geometry;
     geometry.text = text.str();

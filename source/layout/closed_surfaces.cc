@@ -20,6 +20,23 @@ namespace quoin
     using Vector = dealii::Tensor<1, 3>;
     using Edge   = std::pair<unsigned int, unsigned int>;
 
+    void keep_used_points(FacetSoup &soup)
+    {
+      std::vector<unsigned int> place(soup.points.size(), none);
+      std::vector<Point> points;
+      for (Facet &facet : soup.facets)
+        for (unsigned int &corner : facet.corners)
+        {
+          if (place[corner] == none)
+          {
+            place[corner] = points.size();
+            points.push_back(soup.points[corner]);
+          }
+          corner = place[corner];
+        }
+      soup.points = points;
+    }
+
     /** Makes points closer than @p tolerance [m] one. */
     void merge_points(FacetSoup &soup, const double tolerance)
     {
@@ -144,7 +161,14 @@ namespace quoin
           patches[patch[f]].push_back(f);
           const Facet &facet          = soup.facets[facets[f]];
           BlockSurfaces::Block &block = result.blocks[first + shell[f]];
-          block.group                 = facet.group;
+          if (!block.group.empty() && block.group != facet.group)
+            throw InputError(
+                "Mesh '" + file + "': "
+                + (facet.object.empty() ? "a block"
+                                        : "block '" + facet.object + "'")
+                + " has the materials '" + block.group + "' and '" + facet.group
+                + "'. Give all faces of a block one material.");
+          block.group = facet.group;
           block.volume += (reversed[f] ? -1. : 1.)
                           * (area_of(soup.points, facet.corners)
                              * soup.points[facet.corners[0]])
@@ -315,11 +339,15 @@ namespace quoin
 
   BlockSurfaces closed_surfaces(FacetSoup &soup, const std::string &file)
   {
+    keep_used_points(soup);
     double extent = 0.;
     for (const Point &p : soup.points)
       extent = std::max(extent, p.distance(soup.points[0]));
-    merge_points(soup, 1e-6 * extent);
+    if (extent > 0.)
+      merge_points(soup, 1e-6 * extent);
     flatten(soup, 1e-6 * extent);
+    if (soup.facets.empty())
+      throw InputError("Mesh '" + file + "': there is no block in it.");
     std::map<std::string, std::vector<unsigned int>> objects;
     std::vector<std::string> order;
     for (unsigned int f = 0; f < soup.facets.size(); ++f)

@@ -171,7 +171,7 @@ namespace quoin
                              const unsigned int course)
     {
       for (std::size_t i = 1; i < all.size(); ++i)
-        if (all[i].where.left < all[i - 1].where.right)
+        if (all[i].where.left < all[i - 1].where.right * (1. - coincident))
         {
           const bool at_wall = all[i].kind == Interruption::wall
                                || all[i - 1].kind == Interruption::wall;

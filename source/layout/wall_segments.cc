@@ -184,7 +184,7 @@ namespace quoin
     {
       for (const WallOpening &opening : openings)
       {
-        if (opening.right > segment.length)
+        if (opening.right > segment.length + 1e-9 * wall.unit_length)
           section.fail("Openings", "must have 0 <= left < right <= 'Length'.");
         for (const WallSegment &other : wall.segments)
         {
@@ -192,9 +192,10 @@ namespace quoin
             continue;
           const Meeting square = meeting(wall, segment, other);
           const double start   = segment.start[segment.along];
-          if (std::min(square.width(0), square.width(1)) > 0.
-              && opening.left < square.high[segment.along] - start
-              && square.low[segment.along] - start < opening.right)
+          const double exact   = 1e-9 * wall.unit_length;
+          if (std::min(square.width(0), square.width(1)) > exact
+              && opening.left < square.high[segment.along] - start - exact
+              && square.low[segment.along] - start < opening.right - exact)
             section.fail(
                 "Openings",
                 "must not reach into the square that the segment "

@@ -198,8 +198,10 @@ namespace quoin
       throw InputError(
           "section 'Stages/" + stage_name
           + "': 'Load pattern' acts on a platen that is free to move with it. "
-            "Drive or hold that platen along the loads and in its rotation, or "
-            "replace it by a block with 'Law = rigid'.");
+            "Drive or hold that platen along the loads and in its rotation"
+          + std::string(dim == 2
+                            ? ", or replace it by a block with 'Law = rigid'."
+                            : "."));
     loaded.clear();
     node_gain = 0.;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)

@@ -155,6 +155,13 @@ namespace quoin
                            "but waves in the column beside the model are those "
                            "of one motion. Give the base a function of time "
                            "alone.");
+      if (base->wave_direction)
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Base = " + load.base
+                         + "' has an 'Incident direction', but waves between "
+                           "free fields rise vertically. Take it out, or let a "
+                           "'viscous boundary' all around the model pass the "
+                           "wave.");
       constraints.push_back(std::make_unique<FreeFieldBoundary<dim>>(
           load, model.nodes(), free_field_ground(model),
           FreeFieldBase{ *base, impedance_beyond(model, *base) }));

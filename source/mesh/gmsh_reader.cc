@@ -198,8 +198,7 @@ namespace quoin
               ? "Change the parameters of that section."
               : "Correct the blocks in the program that wrote the file.";
     return read_on_first_rank(communicator,
-                              [&]()
-                              {
+                              [&]() {
                                 return read("/dev/stdin", geometry, maker, cure,
                                             dimension, cells);
                               });

@@ -7,6 +7,7 @@
 #include <quoin/absorbing/free_field_column.h>
 
 #include <map>
+#include <optional>
 #include <set>
 
 namespace quoin
@@ -32,13 +33,13 @@ namespace quoin
     /**
      * @p faces: those of the side, all in one vertical plane; @p base:
      * impedance [Pa s/m] below each place where the boundary of the base has a
-     * node. Throws an InputError about a side that the load @p load cannot
-     * continue.
+     * node, none where several meet. Throws an InputError about a side that the
+     * load @p load cannot continue.
      */
     FreeFieldGrid(const std::string &load,
                   const std::vector<BoundaryFace<3>> &faces,
                   const FreeFieldGround &ground,
-                  const std::map<Place, Impedance> &base,
+                  const std::map<Place, std::optional<Impedance>> &base,
                   const std::string &base_name);
 
     /** Node of the grid at node @p k of face @p f. */
@@ -83,6 +84,7 @@ namespace quoin
     {
       std::array<unsigned int, 2> nodes; /**< lower one first */
       unsigned int group;
+      unsigned int opposite; /**< node of the triangle */
     };
     /** Where a node hangs on a column by a dashpot. */
     struct Tie
@@ -108,10 +110,16 @@ namespace quoin
                         const FreeFieldGround &ground);
     /** Edges that one triangle has. */
     std::vector<Edge> outline(const std::vector<BoundaryFace<3>> &faces) const;
+    /** How far @p node is along the side [m]. */
+    double way(unsigned int node) const;
+    /** Refuses edges of the outline that are neither at the ends @p ends of the
+        side [m], at its foot nor below air. */
+    void refuse_gaps(const std::vector<Edge> &outline,
+                     const std::array<double, 2> &ends) const;
     void make_column(unsigned int end, std::vector<Edge> edges,
                      const FreeFieldGround &ground);
     void make_foot(const std::vector<Edge> &outline,
-                   const std::map<Place, Impedance> &base,
+                   const std::map<Place, std::optional<Impedance>> &base,
                    const std::string &base_name);
     void add_stresses(const StepContext &step, const double *u,
                       const double *v);

@@ -65,7 +65,8 @@ namespace quoin
    * blocks that touch are cut so that they match: physical volumes are the
    * groups, the physical surface 'joint' is all where two blocks touch, and
    * block_sides are those at the box around all of them. The mesh has edges of
-   * @p element_size [m]. gmsh reports an error if blocks overlap.
+   * @p element_size [m]. gmsh reports an error if blocks overlap or
+   * have a cavity.
    */
   GmshGeometry block_geometry(const BlockSurfaces &blocks, double element_size);
 

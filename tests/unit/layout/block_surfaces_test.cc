@@ -224,25 +224,52 @@ TEST(BlockSurfaces, RefusesWhatIsNoBlock)
                  "line 2: vertex '2' is not there");
   expect_failure(".obj", "v 0 0 0\nv 1 0 0\nf 1 2\n",
                  "line 3: a face needs three vertices.");
+  expect_failure(".obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",
+                 "there is no block in it");
+  expect_failure(".obj", "v 0 0 0\nf 1 1 1\n", "there is no block in it");
+  std::string two = box;
+  two.insert(two.rfind('f'), "usemtl other\n");
+  expect_failure(".obj", two,
+                 "block 'a' has the materials 'block' and 'other'");
   expect_failure(".obj", box.substr(0, box.rfind('f')),
                  "the surface of block 'a' is not closed: 1 face has the edge");
 }
 
+TEST(BlockSurfaces, UnusedVerticesDoNotCount)
+{
+  const TestFile file(".obj", "v 1000 0 0\n" + obj_box("a", 0., 2));
+  const BlockSurfaces blocks = read_block_surfaces(file.name);
+  EXPECT_EQ(blocks.points.size(), 8U);
+}
+
 TEST(BlockSurfaces, BlocksThatOverlapAreRefused)
 {
-  const TestFile file(".obj", obj_box("a", 0., 1) + obj_box("b", 0.5, 9));
-  const GmshGeometry geometry
-      = block_geometry(read_block_surfaces(file.name), 0.5);
-  try
+  // Beside each other by half, and one inside the other.
+  const std::string other = obj_box("b", 0.5, 9);
+  std::string inner       = "o inner\n";
+  for (const double z : { 0.5, 1.5 })
+    for (const double y : { 0.25, 0.75 })
+      for (const double x : { 0.25, 0.75 })
+        inner += "v " + std::to_string(x) + " " + std::to_string(y) + " "
+                 + std::to_string(z) + "\n";
+  inner += other.substr(other.find('f'));
+  for (const std::string &second : { other, inner })
   {
-    mesh_any_gmsh_geometry(geometry.text, file.name, MPI_COMM_SELF,
-                           MeshDimension::three);
-    FAIL();
-  }
-  catch (const InputError &error)
-  {
-    EXPECT_NE(std::string(error.what()).find("blocks overlap"),
-              std::string::npos)
-        << error.what();
+    const TestFile file(".obj", obj_box("a", 0., 1) + second);
+    const GmshGeometry geometry
+        = block_geometry(read_block_surfaces(file.name), 0.5);
+    try
+    {
+      mesh_any_gmsh_geometry(geometry.text, file.name, MPI_COMM_SELF,
+                             MeshDimension::three);
+      FAIL();
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_NE(
+          std::string(error.what()).find("blocks overlap, or one is hollow"),
+          std::string::npos)
+          << error.what();
+    }
   }
 }
