@@ -277,6 +277,7 @@ namespace quoin
                              const TimePoint &time,
                              std::vector<Vector> &force) const
   {
+    std::fill(force.begin(), force.end(), Vector());
     double value          = 0.;
     const Arrival *before = nullptr; // with the value
     for (const Arrival &arrival : arrivals)

@@ -246,6 +246,7 @@ namespace quoin
         refuse_inclined(faces, this->load_name);
     this->node_list = nodes_of_faces(node_map, faces);
     dashpots.resize(this->node_list.size());
+    pull.resize(this->node_list.size());
     add_dashpots(node_map, faces, impedance, thickness, this->node_list,
                  dashpots);
     if constexpr (dim == 3)
@@ -285,25 +286,22 @@ namespace quoin
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<1, dim>>
-  ViscousBoundary<dim>::pulls(const TimePoint &time,
-                              const ViscousBoundaryState<dim> &own) const
+  void ViscousBoundary<dim>::find_pulls(const TimePoint &time,
+                                        const ViscousBoundaryState<dim> &own)
   {
-    std::vector<dealii::Tensor<1, dim>> result(dashpots.size());
     if constexpr (dim == 3)
       if (plane_waves)
-        plane_waves->find(components, time, result);
+        plane_waves->find(components, time, pull);
     if (!plane_waves)
     {
       const auto incident = component_values(components, time);
       for (unsigned int i = 0; i < dashpots.size(); ++i)
-        result[i] = dashpots[i].pull(incident);
+        pull[i] = dashpots[i].pull(incident);
     }
     if (!own.held.empty())
       for (unsigned int i = 0; i < dashpots.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          result[i][d] += own.held[dim * i + d];
-    return result;
+          pull[i][d] += own.held[dim * i + d];
   }
 
   template <int dim>
@@ -316,7 +314,7 @@ namespace quoin
         = state.template get<ViscousBoundaryState<dim>>(this->load_name);
     if (!own.active)
       hold(captured, own);
-    const auto pull = pulls(step.begin, own);
+    find_pulls(step.begin, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       move_with_dashpot(step, captured[this->captured_positions[i]],
                         dashpots[i].damping, pull[i], state);
@@ -328,9 +326,6 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const ViscousBoundaryState<dim> &own
-        = state.template get<ViscousBoundaryState<dim>>(this->load_name);
-    const auto pull      = pulls(step.begin, own);
     this->last_resultant = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       account_for_dashpot(step, captured[this->captured_positions[i]],

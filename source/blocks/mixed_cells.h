@@ -33,8 +33,8 @@ namespace quoin
     OfMixed<CellMotion> motion;
     OfMixed<double> share; /**< of the volume [-] */
     double volume;         /**< [m^3] */
-    /** Of the elastic deformation, (I + H)(I + Q), with the rotation that is
-        the cell's own. */
+    /** Strain by the elastic deformation, (I + H)(I + Q), with the rotation
+        that is the cell's own. */
     OfMixed<SpaceStrain> strain;
     OfMixed<double> own;     /**< mean stress by the cell's own strain [Pa] */
     OfMixed<double> initial; /**< mean initial stress [Pa] */

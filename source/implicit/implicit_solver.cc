@@ -728,11 +728,21 @@ namespace quoin
   }
 
   template <int dim>
+  bool ImplicitSolver<dim>::has_balance() const
+  {
+    return dealii::Utilities::MPI::max(unsigned(!balance.force.empty()),
+                                       communicator)
+           > 0;
+  }
+
+  template <int dim>
   std::array<double, 3>
   ImplicitSolver<dim>::resultant(const std::string &load) const
   {
+    if (!has_balance())
+      return {};
     for (const MotionConstraint<dim> *constraint : acting.constraints)
-      if (constraint->name() == load && !balance.force.empty())
+      if (constraint->name() == load)
         return reaction(model, *dof_map, all.far.elastostatic, balance,
                         *constraint);
     return {};
@@ -743,7 +753,7 @@ namespace quoin
   ImplicitSolver<dim>::moments(const MotionConstraint<dim> &platen) const
   {
     std::array<double, 3> result{};
-    if (dim == 3 && !balance.force.empty())
+    if (dim == 3 && has_balance())
     {
       const auto drive = platen_drive(model, *dof_map, balance, platen);
       std::copy(drive.end() - 3, drive.end(), result.begin());

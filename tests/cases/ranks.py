@@ -198,6 +198,15 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                    "s.prm"),
                       ["Stages/wave/Damping=Rayleigh",
                        "Stages/wave/Rayleigh stiffness coefficient=1e-6"]),
+            # plane waves that come in askew, below a free surface
+            "space, oblique wave": (
+                os.path.join(common.VERIFICATION, "space_oblique_waves",
+                             "case.prm"),
+                ["Loads/open/Incident direction=0.48, 0.36, 0.8",
+                 "Loads/open/Free surface=0", "Loads/open/Boundary=below"]),
+            # blocks of another program
+            "space, imported": (os.path.join(common.VERIFICATION, "space_rest",
+                                             "imported.prm"), []),
             # bars through blocks that several ranks share, in a second stage,
             # with pretension, slip of a bond under pressure, and dowels
             "bars": (BARS, ["Solver=explicit"]),

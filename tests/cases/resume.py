@@ -51,6 +51,10 @@ CASES = {
                                    "case.prm"),
                       ["Output/Checkpoint interval=0.02",
                        "Output/Field interval=0.1"], 2, 2),
+    # plane waves that come in askew, from all sides
+    "space, oblique wave": (os.path.join(common.VERIFICATION,
+                                         "space_oblique_waves", "case.prm"),
+                            ["Output/Checkpoint interval=0.02"], 2, 2),
     # platens with six degrees of freedom
     "space, platen": (os.path.join(common.VERIFICATION, "space_platens",
                                    "case.prm"),

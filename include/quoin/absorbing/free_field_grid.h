@@ -134,7 +134,7 @@ namespace quoin
     std::vector<Tie> ties;
     std::vector<Share> shares;
     std::map<unsigned int, Support> supports; /**< of nodes */
-    /** Of nodes at ends and foot [N s/m]. */
+    /** Dashpots of the nodes at both ends and at the foot [N s/m]. */
     std::map<unsigned int, Dashpot<3>> dashpots;
 
     std::vector<Vector> force, mean_velocity; /**< of nodes at t [N], [m/s] */

@@ -79,20 +79,20 @@ namespace quoin
   class PlaneWaveForces
   {
   public:
-    PlaneWaveForces() = default;
-
     /**
-     * Of the waves of @p load on the local nodes @p nodes (ascending) of the
+     * Takes the waves of @p load on the local nodes @p nodes (ascending) of the
      * @p faces; @p impedance: beyond each cell group. Throws an InputError:
-     * faces before different media, a signal that is not zero before it begins,
-     * an origin that the wave reaches after a part of the boundary.
+     * faces before different media or above the free surface, a signal that is
+     * not zero before it begins, an origin that the wave reaches after a part
+     * of the boundary.
      */
     PlaneWaveForces(const LoadParameters &load, const NodeMap<3> &node_map,
                     const std::vector<BoundaryFace<3>> &faces,
                     const std::vector<Impedance> &impedance,
                     const std::vector<unsigned int> &nodes);
 
-    /** Forces [N] on the nodes at @p time, for signals @p components. */
+    /** Sets @p force to the forces [N] on the nodes at @p time, for signals
+        @p components. */
     void find(const std::array<LoadComponent, 3> &components,
               const TimePoint &time,
               std::vector<dealii::Tensor<1, 3>> &force) const;

@@ -180,12 +180,14 @@ namespace quoin
   private:
     void hold(const std::vector<CapturedNode<dim>> &captured,
               ViscousBoundaryState<dim> &own) const;
-    /** Forces of incident waves at @p time and held forces on the nodes [N]. */
-    std::vector<dealii::Tensor<1, dim>>
-    pulls(const TimePoint &time, const ViscousBoundaryState<dim> &own) const;
+    /** Finds the forces of incident waves at @p time and those that are held.
+     */
+    void find_pulls(const TimePoint &time,
+                    const ViscousBoundaryState<dim> &own);
 
     std::array<LoadComponent, 3> components;
     std::vector<Dashpot<dim>> dashpots;
+    std::vector<dealii::Tensor<1, dim>> pull; /**< of this step [N] */
     /** Null: waves come along the normal. */
     std::unique_ptr<const PlaneWaveForces> plane_waves;
   };

@@ -159,6 +159,9 @@ namespace quoin
       failed
     };
 
+    /** Whether forces have been found on any rank, one of which may have no
+        node. Collective. */
+    bool has_balance() const;
     void prepare_stage(const State<dim> &state);
     /** Joints, blocks, @p loads and what excavated blocks leave behind. */
     typename Equilibrium<dim>::Operators

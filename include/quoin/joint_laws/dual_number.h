@@ -22,7 +22,7 @@ namespace quoin
     DualNumber(const double constant) : value(constant)
     {
     }
-    /** Of the variable @p which, or with another @p slope by it. */
+    /** The variable @p which itself, or what has another @p slope by it. */
     DualNumber(const double value, const int which, const double slope = 1.)
       : value(value)
     {

@@ -74,7 +74,8 @@ namespace quoin
       return { { { { slip[0], 1 }, { slip[1], 2 } } } };
   }
 
-  /** Of zero slip, where it has no derivative, that is given as none. */
+  /** Length of @p slip; its derivative, which zero slip does not have, is given
+      as zero there. */
   inline DualNumber<2> magnitude(const DualNumber<2> &slip)
   {
     return abs(slip);

@@ -159,7 +159,7 @@ namespace quoin
       elastic_stress(moduli.lambda * a, moduli.mu, P);
     }
 
-    /** The same with @p isotropic in place of lambda tr e. */
+    /** The elastic stress with @p isotropic in place of lambda tr e. */
     [[gnu::always_inline]] inline void elastic_stress(const Value &isotropic,
                                                       const Value &mu,
                                                       Value (&P)[3][3]) const
