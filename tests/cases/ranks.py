@@ -204,9 +204,10 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                              "case.prm"),
                 ["Loads/open/Incident direction=0.48, 0.36, 0.8",
                  "Loads/open/Free surface=0", "Loads/open/Boundary=below"]),
-            # blocks of another program
+            # blocks of another program, heavier at once than what bears them
             "space, imported": (os.path.join(common.VERIFICATION, "space_rest",
-                                             "imported.prm"), []),
+                                             "imported.prm"),
+                                ["Loads/gravity/Vertical=-40"]),
             # bars through blocks that several ranks share, in a second stage,
             # with pretension, slip of a bond under pressure, and dowels
             "bars": (BARS, ["Solver=explicit"]),
