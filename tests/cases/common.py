@@ -24,6 +24,8 @@ MPI_ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_mpi_yield_when_idle": "1",
+    # no search for the network of a cluster, a quarter of a second a start
+    "OMPI_MCA_pml": "ob1",
 }
 MOST_RESIDUAL = 1e-4           # of the energy balance, unless a case says more
 RUN_FAILED = 2                 # exit status of quoin: its outputs are kept
