@@ -29,6 +29,15 @@ from quoin.stages import begin, since_text, time_of
 LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
 
 
+def is_in_space(output):
+    """Whether the blocks of a run are tetrahedra."""
+    path = os.path.join(output, "blocks.pvd")
+    if not vtu.exists(path):
+        return False
+    blocks = vtu.read_at(path)
+    return blocks is not None and blocks.cells.shape[1] == 4
+
+
 class Frame:
     """The fields of one moment; joints and contacts may be None. Joints that
     were handed over have what their contacts bear (joint_movement.py)."""
