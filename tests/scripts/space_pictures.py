@@ -396,9 +396,8 @@ class Script(unittest.TestCase):
     def test_the_screen_ends_with_the_program(self):
         for how in (signal.SIGKILL, None):
             program = subprocess.Popen(
-                [sys.executable, "-c", "import os; from quoin.figures import "
-                 "off_screen; off_screen.open_screen(); "
-                 "print(os.environ['DISPLAY'], flush=True); "
+                [sys.executable, "-c", "import os; from quoin import screen; "
+                 "screen.open_screen(); print(os.environ['DISPLAY'], flush=True); "
                  + ("input()" if how else "1/0")], stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                 env=dict(os.environ, DISPLAY="", PYTHONPATH=os.path.join(

@@ -53,7 +53,8 @@ the directions of all three stresses.
 
 Blocks in three dimensions are seen from --camera; --cut draws what lies on one
 side of a plane, --explode moves them apart. Their faces at joints have the colours
-of joints where these open or slip.
+of joints where these open or slip. They need VTK's Python and, without a screen, Xvfb:
+apt-get install python3-vtk9 xvfb.
 
   scripts/render OUTPUT_DIR --colour displacement --cut 'y<0.4' --camera 30,20
   scripts/render OUTPUT_DIR/mechanism --explode 0.3
@@ -160,7 +161,7 @@ def space_figure():
             raise
         raise ValueError("pictures in three dimensions are drawn by VTK, whose "
                          "Python was not found. Install it: apt-get install "
-                         "python3-vtk9") from None
+                         "python3-vtk9, or pip install vtk") from None
     return module
 
 

@@ -58,9 +58,9 @@ class Frame:
                              f"{os.path.join(output, 'blocks.pvd')}; was a "
                              f"field written?")
         if self.blocks.points.shape[1] == 3:
-            raise ValueError(f"{output}: blocks in three dimensions are not "
-                             "drawn here: take scripts/paraview_view, or open "
-                             "blocks.pvd in ParaView")
+            raise ValueError(f"{output}: blocks in three dimensions are "
+                             "drawn by scripts/render alone: take that, or "
+                             "open blocks.pvd in ParaView")
         if os.path.basename(os.path.abspath(output)) == "mechanism":
             # the series of a factor of safety lists its fields by it
             self.label = f"factor {self.blocks.time:.4g}"

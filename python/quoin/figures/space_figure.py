@@ -26,7 +26,7 @@ from quoin.colours import MATERIALS, ORANGE, RED, YELLOW
 from quoin.csv_table import scale_for
 from quoin.figures.block_figure import PER, block_colours, round_down
 from quoin.figures.figure_style import MAGNITUDES, STRESSES
-from quoin.figures.off_screen import Scene, beyond
+from quoin.figures.scene import Scene, beyond
 from quoin.figures.stress_figure import CrossLines
 from quoin.shared_motion import enlarged, shared_motion
 
@@ -116,9 +116,9 @@ def state_of_faces(faces, joints):
     centres = (np.add.reduceat(places[corners], first[:-1])
                / np.diff(first)[:, None])
     near = 1e-6 * np.ptp(places, axis=0).max()
-    closest, face, part, distance = [0.0] * 3, *map(reference, (0, 0, 0.0))
+    face, part, distance = map(reference, (0, 0, 0.0))
     for k, centre in enumerate(centres):
-        if locator.FindClosestPointWithinRadius(centre, near, closest, face,
+        if locator.FindClosestPointWithinRadius(centre, near, [0.0] * 3, face,
                                                 part, distance):
             states[k] = joints.cell_data["state"][failed][face.get()]
     return states
@@ -161,8 +161,8 @@ def seen(faces, page, low, high, spacing):
     cells = vtk_to_numpy(faces.GetCellData().GetArray("cell"))
     far = beyond(faces) * page[2]
     places, found = [], []
-    share, hit, parametric, part, face = (reference(0.0), [0.0] * 3, [0.0] * 3,
-                                          *map(reference, (0, 0)))
+    share, part, face = map(reference, (0.0, 0, 0))
+    hit, parametric = [0.0] * 3, [0.0] * 3
     for y in np.arange(low[1] + 0.5 * spacing, high[1], spacing):
         for x in np.arange(low[0] + 0.5 * spacing, high[0], spacing):
             place = np.array([x, y]) @ page[:2]

@@ -2,48 +2,17 @@
 # Copyright (C) 2026 The quoin authors
 """Surfaces and lines that VTK draws where nobody sees it, as images."""
 
-import ctypes
-import os
-import shutil
-import subprocess
-
 import numpy as np
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (fills the factory)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight,
                                          vtkPolyDataMapper, vtkRenderer,
                                          vtkRenderWindow,
                                          vtkWindowToImageFilter)
 
+from quoin.screen import open_screen
+
 DARKEST = 0.55                       # of faces that the light grazes
 SAMPLES = 4                          # of a pixel
-
-
-def open_screen():
-    """Takes the X server of DISPLAY or, if none answers there, starts one that
-    nobody sees and that ends with this program, however that ends."""
-    if vtkRenderWindow().GetClassName() != "vtkXOpenGLRenderWindow":
-        return
-    x11 = ctypes.CDLL("libX11.so.6")
-    if x11.XOpenDisplay(None):
-        return
-    if shutil.which("Xvfb") is None:
-        raise OSError("pictures in three dimensions need a screen: DISPLAY "
-                      "names none, and Xvfb, which stands for one, was not "
-                      "found. Install it: apt-get install xvfb")
-    out, into = os.pipe()
-    # -terminate: as its last client goes, that is this program
-    subprocess.run(f"Xvfb -displayfd {into} -terminate -nolisten tcp "
-                   "-screen 0 64x64x24 &", shell=True, pass_fds=[into],
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(into)
-    with open(out) as pipe:
-        number = pipe.readline().strip()
-    if not number:
-        raise OSError("Xvfb, the screen of pictures in three dimensions, does "
-                      "not start; 'Xvfb :99' says why")
-    os.environ["DISPLAY"] = ":" + number
-    x11.XOpenDisplay(None)
 
 
 def actor(shape, has_colours, **properties):
