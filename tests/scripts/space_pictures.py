@@ -170,7 +170,7 @@ class Pictures(unittest.TestCase):
             if inside.any():         # not on the border of two cells
                 value = corners[inside.argmax(), :, 2].mean()   # [mm]
                 self.looks(seen, place, figure_style.MAGNITUDES(
-                    seen.picture.values(value))[:3])
+                    seen.picture.sizes(value))[:3])
         mappable, label = seen.picture.colour_bars()[0]
         self.assertEqual(label, "displacement [mm]")
         self.assertLess(mappable.norm.vmax, 1.)
@@ -188,6 +188,10 @@ class Pictures(unittest.TestCase):
         self.assertGreater(np.ptp([
             with_mesh.pixel(2. / 3. + x, 0., 0.41)[0]
             for x in np.linspace(-0.005, 0.005, 41)]), 30)
+
+    def test_cut_beside_the_blocks(self):
+        with self.assertRaisesRegex(ValueError, "no block.* x = -1 m"):
+            Seen(frame_of(), cut=Cut("x<-1"))
 
     def test_stress_of_the_blocks(self):
         seen = Seen(frame_of(), camera=ALONG_Y, colour="stress")

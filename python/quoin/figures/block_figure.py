@@ -167,7 +167,7 @@ PER = {"velocity": "/s", "displacement": ""}
 
 def cell_size(blocks, name):
     """Magnitude of a vector, averaged over the corners of each cell."""
-    size = np.linalg.norm(blocks.point_data[name][:, :2], axis=1)
+    size = np.linalg.norm(blocks.point_data[name], axis=1)
     return size[blocks.cells].mean(axis=1)
 
 
@@ -202,15 +202,8 @@ class Picture:
             self.high = np.max([p.max(axis=0) for p in places], axis=0)
         self.extent = self.high - self.low
 
-        # A few extremes must not make all others pale or thin.
-        self.sizes = self.contours = self.crosses = None
-        if options.colour in PER:
-            largest = max(np.quantile(cell_size(f.blocks, options.colour),
-                                      0.99) for f in frames)
-            # in the unit of the bar
-            self.factor, self.unit = scale_for("m", largest)
-            self.sizes = Normalize(0.0, self.factor * largest or 1.0,
-                                   clip=True)
+        self.contours = self.crosses = None
+        self.set_sizes(frames)
         if options.colour == "stress":
             self.contours = Contours(frames)
         self.is_panel = len(frames) > 1
@@ -224,6 +217,17 @@ class Picture:
         self.axial_force = max([axial_forces(f.cables).max() for f in frames
                                 if f.cables and len(f.cables.cells)],
                                default=0.0)
+
+    def set_sizes(self, frames):
+        """The range of colours of magnitudes, in the unit of their bar."""
+        self.sizes = None
+        if self.options.colour in PER:
+            # A few extremes must not make all others pale.
+            largest = max(np.quantile(cell_size(f.blocks, self.options.colour),
+                                      0.99) for f in frames)
+            self.factor, self.unit = scale_for("m", largest)
+            self.sizes = Normalize(0.0, self.factor * largest or 1.0,
+                                   clip=True)
 
     def joint_style(self, frames):
         if self.options.joints == "mode":

@@ -8,7 +8,7 @@ there."""
 import os
 
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize, to_rgb
+from matplotlib.colors import Normalize, to_rgb, to_rgba_array
 from matplotlib.patches import Patch
 import numpy as np
 from vtkmodules.util.numpy_support import (numpy_to_vtk, numpy_to_vtkIdTypeArray,
@@ -22,16 +22,17 @@ from vtkmodules.vtkFiltersGeneral import vtkTableBasedClipDataSet
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
 from quoin import joint_states, vtu
-from quoin.colours import MATERIALS, ORANGE, RED, YELLOW
+from quoin.colours import ORANGE, RED, YELLOW
 from quoin.csv_table import scale_for
-from quoin.figures.block_figure import PER, block_colours, round_down
-from quoin.figures.figure_style import MAGNITUDES, STRESSES
+from quoin.figures.block_figure import Picture, round_down
+from quoin.figures.figure_style import STRESSES
 from quoin.figures.scene import Scene, beyond
 from quoin.figures.stress_figure import CrossLines
 from quoin.shared_motion import enlarged, shared_motion
 
 STATES = {joint_states.OPEN: RED, joint_states.SLIPPING: ORANGE,
           joint_states.SLIPPED: YELLOW}
+STRESS = "principal stress 3"        # the minor one
 SHARP = 25.0                         # edges that are drawn [deg]
 PIXELS = 1600                        # along the longer side of a picture
 
@@ -94,6 +95,8 @@ def surface(blocks, places, cut=None):
         clip.InsideOutOn()
         faces.SetInputConnection(clip.GetOutputPort())
     faces.Update()
+    if faces.GetOutput().GetNumberOfCells() == 0:
+        raise ValueError(f"--cut: no block has a part on that side of {cut.text}")
     return faces.GetOutput()
 
 
@@ -173,7 +176,7 @@ def seen(faces, page, low, high, spacing):
     return np.reshape(places, (-1, 2)), np.array(found, dtype=int)
 
 
-class SpacePicture:
+class SpacePicture(Picture):
     """Draws frames with one scale, one view and one range of colours."""
 
     def __init__(self, options, frames):
@@ -194,19 +197,14 @@ class SpacePicture:
         self.scale = options.scale or min(self.automatic_scale(f)
                                           for f in frames)
         self.is_shared = any(f.shared is not None for f in frames)
-        self.values = None
-        if options.colour in PER or options.colour == "stress":
-            sizes = [self.cell_values(f.blocks) for f in frames]
-            largest = max(np.quantile(np.abs(s), 0.99) for s in sizes)
-            unit = "Pa" if options.colour == "stress" else "m"
-            self.factor, self.unit = scale_for(unit, largest)
-            if options.colour == "stress":
-                low = min(np.quantile(s, 0.01) for s in sizes)
-                self.values = Normalize(self.factor * low or -1.0, 0.0,
-                                        clip=True)
-            else:
-                self.values = Normalize(0.0, self.factor * largest or 1.0,
-                                        clip=True)
+        self.set_sizes(frames)
+        self.joints = self.contours = self.crosses = self.stresses = None
+        if options.colour == "stress":
+            values = [f.blocks.cell_data[STRESS] for f in frames]
+            self.factor, self.unit = scale_for("Pa", max(
+                np.quantile(np.abs(v), 0.99) for v in values))
+            low = min(np.quantile(v, 0.01) for v in values)
+            self.stresses = Normalize(self.factor * low or -1.0, 0.0, clip=True)
         self.faces = {frame: self.coloured_faces(frame) for frame in frames}
         places = np.concatenate([
             vtk_to_numpy(faces.GetPoints().GetData()) @ self.page[:2].T
@@ -216,7 +214,6 @@ class SpacePicture:
         self.high = places.max(axis=0) + margin
         self.extent = self.high - self.low
         self.scene = Scene(self.page, self.low, self.high, PIXELS)
-        self.crosses = None
         self.is_panel = len(frames) > 1
         if options.principal:
             self.spacing = self.extent.max() / (
@@ -233,23 +230,11 @@ class SpacePicture:
         return (1.0 if largest <= 1e-12 * size
                 else round_down(0.04 * size / largest))
 
-    def cell_values(self, blocks):
-        if self.options.colour == "stress":
-            return blocks.cell_data["principal stress 3"]
-        size = np.linalg.norm(blocks.point_data[self.options.colour], axis=1)
-        return size[blocks.cells].mean(axis=1)
-
     def colours(self, blocks):
-        """Colours of the cells, (n, 3)."""
-        if self.values:
-            scale = STRESSES if self.options.colour == "stress" else MAGNITUDES
-            return scale(self.values(self.factor
-                                     * self.cell_values(blocks)))[:, :3]
-        if self.options.colour == "block":
-            return np.array([to_rgb(c) for c in
-                             block_colours(blocks.cell_data["block"])])
-        return np.array([to_rgb(c) for c in MATERIALS])[
-            blocks.cell_data["material"] % len(MATERIALS)]
+        if self.stresses:
+            return STRESSES(self.stresses(self.factor
+                                          * blocks.cell_data[STRESS]))
+        return super().colours(blocks)
 
     def apart(self, blocks, x):
         """Positions of points whose blocks have been moved apart."""
@@ -267,8 +252,8 @@ class SpacePicture:
         blocks = frame.blocks
         faces = surface(blocks, self.apart(blocks, frame.position(self.scale)),
                         self.options.cut)
-        shade = self.colours(blocks)[
-            vtk_to_numpy(faces.GetCellData().GetArray("cell"))]
+        shade = to_rgba_array(self.colours(blocks))[
+            vtk_to_numpy(faces.GetCellData().GetArray("cell")), :3]
         if frame.joints is not None and not self.options.blocks_only:
             states = state_of_faces(faces, frame.joints)
             for state, colour in STATES.items():
@@ -309,27 +294,13 @@ class SpacePicture:
             axes, places, [(values[cells, k], ways[:, :, k]) for k in range(3)],
             0.7 if self.is_panel else 0.9)
 
-    def caption(self, frame, digits="4g"):
-        return frame.label or f"t = {frame.time:.{digits}} s"
-
     def remark(self):
-        words = []
-        if self.scale != 1.0:
-            words.append(f"displacements × {self.scale:g}"
-                         + (" without the motion of the whole"
-                            if self.is_shared else ""))
-        if self.options.explode:
-            words.append("blocks moved apart")
-        if self.options.cut:
-            words.append(f"cut at {self.options.cut.text}")
-        return ", ".join(words)
+        words = [super().remark(),
+                 "blocks moved apart" if self.options.explode else "",
+                 f"cut at {self.options.cut.text}" if self.options.cut else ""]
+        return ", ".join(filter(None, words))
 
     def colour_bars(self):
-        if not self.values:
-            return []
-        if self.options.colour == "stress":
-            return [(ScalarMappable(self.values, STRESSES),
-                     f"minor principal stress [{self.unit}]")]
-        name = self.options.colour
-        return [(ScalarMappable(self.values, MAGNITUDES),
-                 f"{name} [{self.unit}{PER[name]}]")]
+        return super().colour_bars() + (
+            [(ScalarMappable(self.stresses, STRESSES),
+              f"minor principal stress [{self.unit}]")] if self.stresses else [])
