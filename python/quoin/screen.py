@@ -5,6 +5,7 @@ ParaView's Python."""
 
 import ctypes
 import os
+import random
 import shutil
 import subprocess
 
@@ -33,14 +34,18 @@ def open_screen():
         raise OSError("pictures in three dimensions need a screen: DISPLAY "
                       "names none, and Xvfb, which stands for one, was not "
                       "found. Install it: apt-get install xvfb")
+    # any number, for the next one may be that of a server which is ending
+    number = f":{random.randint(1000, 50000)}"
     out, into = os.pipe()
     # -terminate: as its last client goes, that is this program
-    subprocess.run(f"Xvfb -displayfd {into} -terminate -nolisten tcp "
-                   "-screen 0 64x64x24 &", shell=True, pass_fds=[into],
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run(f"Xvfb {number} -displayfd {into} -terminate "
+                   "-nolisten tcp -screen 0 64x64x24 &", shell=True,
+                   pass_fds=[into], stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
     os.close(into)
+    os.environ["DISPLAY"] = number
     with open(out) as pipe:
-        os.environ["DISPLAY"] = ":" + pipe.readline().strip()
+        pipe.read()                  # until it answers, or has ended
     if not has_screen():
         raise OSError("Xvfb, the screen of pictures in three dimensions, does "
-                      "not start; 'Xvfb :99' says why")
+                      f"not start; 'Xvfb {number}' says why")

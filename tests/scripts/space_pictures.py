@@ -391,6 +391,11 @@ class Script(unittest.TestCase):
 
     def test_what_must_be_installed(self):
         self.refuses("apt-get install xvfb", PATH=self.folder)
+        path = os.path.join(self.folder, "Xvfb")
+        with open(path, "w") as file:
+            file.write("#!/bin/sh\nexit 1\n")
+        os.chmod(path, 0o755)
+        self.refuses("does not start", PATH=self.folder)
         os.makedirs(os.path.join(self.folder, "vtkmodules"), exist_ok=True)
         with open(os.path.join(self.folder, "vtkmodules", "__init__.py"),
                   "w") as file:
