@@ -22,7 +22,6 @@ SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path.insert(0, os.path.join(ROOT, "python"))
 
 from quoin.commands import beam_figure  # noqa: E402
-from quoin.figures import block_figure  # noqa: E402
 from quoin.figures import curve_figure  # noqa: E402
 from quoin import colours  # noqa: E402
 from quoin import damage_table  # noqa: E402
@@ -30,7 +29,6 @@ from quoin.figures import joint_figure  # noqa: E402
 from quoin import moments  # noqa: E402
 from quoin import results as quoin_results  # noqa: E402
 from quoin import run_parameters  # noqa: E402
-from quoin.figures import space_figure  # noqa: E402
 from quoin.figures import stress_figure  # noqa: E402
 import synthetic_runs  # noqa: E402
 from quoin import vtu  # noqa: E402
@@ -50,93 +48,6 @@ class Says(unittest.TestCase):
             function(*arguments)
         for word in words:
             self.assertIn(word, str(caught.exception))
-
-
-class Space(Says):
-    def test_tetrahedra_are_read_and_not_drawn(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "blocks.vtu")
-            synthetic_runs.write_vtu(path, 0., np.zeros((4, 2)),
-                                     np.array([[0, 1, 2, 3]]), {}, {})
-            grid = vtu.read_vtu(path)
-            self.assertEqual((grid.points.shape, grid.cells.shape),
-                             ((4, 3), (1, 4)))
-            with open(os.path.join(folder, "blocks.pvd"), "w") as file:
-                file.write("<VTKFile><Collection><DataSet timestep='0' "
-                           "file='blocks.vtu'/></Collection></VTKFile>")
-            self.says(["three dimensions", "paraview_view"],
-                      block_figure.Frame, folder, None)
-            self.assertTrue(space_figure.is_in_space(folder))
-
-    corners = np.array([[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.],
-                        [1., 1., 1.]])
-
-    def test_surface_of_two_tetrahedra(self):
-        cells = np.array([[0, 1, 2, 3], [1, 2, 3, 4]])
-        faces, owner = space_figure.surface(cells)
-        self.assertEqual(sorted(owner), [0, 0, 0, 1, 1, 1])
-        self.assertNotIn([1, 2, 3], np.sort(faces, axis=1).tolist())
-        # normals of the first one point away from its middle
-        for face in faces[owner == 0]:
-            a, b, c = self.corners[face]
-            outwards = a - self.corners[:4].mean(axis=0)
-            self.assertGreater(np.cross(b - a, c - a) @ outwards, 0.)
-
-    def area(self, polygon):
-        a = polygon[0]
-        return 0.5 * np.linalg.norm(sum(
-            np.cross(b - a, c - a) for b, c in zip(polygon[1:], polygon[2:])))
-
-    def test_sections(self):
-        tetrahedron = self.corners[:4]
-        # x = 1/2, and the plane halfway between two opposite edges
-        self.assertAlmostEqual(self.area(space_figure.section(
-            tetrahedron, tetrahedron[:, 0] - 0.5)), 0.125)
-        self.assertAlmostEqual(self.area(space_figure.section(
-            tetrahedron, tetrahedron[:, 0] + tetrahedron[:, 1] - 0.5)),
-            0.25 * np.sqrt(2))
-        half = space_figure.clipped(tetrahedron[:3], tetrahedron[:3, 0] - 0.5)
-        self.assertAlmostEqual(self.area(half), 0.375)
-
-    def test_the_nearest_is_seen(self):
-        canvas = space_figure.Canvas(np.zeros(2), np.ones(2))
-        triangle = np.array([[0., 0., 1.], [1., 0., 1.], [0., 1., 1.]])
-        canvas.add_triangle(triangle, [0., 0., 1.])
-        canvas.add_triangle(triangle - [0., 0., 2.], [1., 0., 0.])
-        middle = space_figure.PIXELS // 4
-        self.assertEqual(canvas.image[middle, middle].tolist(), [0., 0., 1.])
-        self.assertEqual(canvas.image[-1, -1].tolist(), [1., 1., 1.])
-
-    def test_principal_stresses(self):
-        # 3 MPa along (1, 1, 0), -2 MPa along z, -1 MPa across both
-        way = np.array([1., 1., 0.]) / np.sqrt(2)
-        across = np.array([1., -1., 0.]) / np.sqrt(2)
-        tensor = (3e6 * np.outer(way, way) - 1e6 * np.outer(across, across)
-                  - 2e6 * np.diag([0., 0., 1.]))
-        stress = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-        blocks = Grid(0., self.corners, np.array([[0, 1, 2, 3], [1, 2, 3, 4]]),
-                      {}, {"stress": np.tile(stress, (2, 1))})
-        values, directions = space_figure.SpaceCrosses.principal(blocks)
-        np.testing.assert_allclose(values, [[-2e6, -1e6, 3e6]] * 2)
-        self.assertAlmostEqual(abs(directions[0, :, 2] @ way), 1.)
-        self.assertAlmostEqual(abs(directions[1, 2, 0]), 1.)
-
-    def test_crosses_stand_on_what_is_seen(self):
-        canvas = space_figure.Canvas(np.zeros(2), np.ones(2))
-        triangle = np.array([[0., 0., 1.], [1., 0., 1.], [0., 1., 1.]])
-        canvas.add_triangle(triangle, [0., 0., 1.], 7)
-        canvas.add_triangle(triangle - [0., 0., 2.], [1., 0., 0.], 8)
-        middle = space_figure.PIXELS // 4
-        self.assertEqual((canvas.cell[middle, middle], canvas.cell[-1, -1]),
-                         (7, -1))
-
-    def test_states_of_faces(self):
-        joints = Grid(0., self.corners[1:4] + 0.1, np.array([[0, 1, 2]]),
-                      {"displacement": np.full((3, 3), 0.1)},
-                      {"state": np.array([3])})
-        faces = np.array([[1, 2, 3], [0, 1, 2]])
-        self.assertEqual(space_figure.state_of_faces(
-            self.corners, faces, joints).tolist(), [3, -1])
 
 
 class Moments(Says):

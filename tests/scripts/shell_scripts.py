@@ -69,6 +69,17 @@ class Build(Shell):
         self.assertEqual(self.called("-D QUOIN_WERROR=ON"),
                          "-D QUOIN_WERROR=ON")
 
+    def test_python_of_vtk_may_come_from_paraview(self):
+        self.write("build/build.ninja", "")
+        self.write("scripts/debian-packages.txt", "python3-vtk9\nxvfb\n")
+        self.write("bin/dpkg-query", "#!/bin/sh\n")
+        self.write("bin/sudo", '#!/bin/sh\n"$@"\n')
+        self.write("bin/apt-get", "#!/bin/sh\n")
+        for status, missing in ((0, "xvfb"), (1, "python3-vtk9 xvfb")):
+            self.write("bin/python3", f"#!/bin/sh\nexit {status}\n")
+            self.assertEqual(self.call("build").splitlines()[0],
+                             "installing: " + missing)
+
 
 class Run(Shell):
     def setUp(self):

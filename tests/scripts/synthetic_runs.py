@@ -68,14 +68,14 @@ def write_vtu(path, time, points, cells, point_data, cell_data):
         return (f"<{name}>" + "".join(array(*item) for item in data.items())
                 + f"</{name}>")
 
-    flat = np.hstack([points, np.zeros((len(points), 1))])
+    places = np.pad(points, [(0, 0), (0, 3 - points.shape[1])])
     header = (
         '<VTKFile type="UnstructuredGrid" version="1.0" '
         'byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid>'
         + group("FieldData", {"TimeValue": np.array([time])})
         + f'<Piece NumberOfPoints="{len(points)}" '
         + f'NumberOfCells="{len(cells)}">'
-        + group("Points", {"points": flat})
+        + group("Points", {"points": places})
         + group("Cells", {
             "connectivity": cells.ravel().astype(np.int32),
             "offsets": (np.arange(1, len(cells) + 1)

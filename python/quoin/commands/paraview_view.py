@@ -47,7 +47,6 @@ In ParaView's window, View > Python Shell:
 """
 
 import argparse
-import ctypes
 import math
 import os
 import shutil
@@ -56,6 +55,7 @@ import sys
 from quoin import colours, vtu
 from quoin.csv_table import with_unit
 from quoin.commands.options import Parser
+from quoin.screen import has_screen
 from quoin.shared_motion import Motion, shared_motion
 from quoin.stages import end, time_of, time_or_name
 
@@ -86,24 +86,6 @@ def round_down(value):
     """1, 2 or 5 times a power of ten."""
     power = 10.0 ** math.floor(math.log10(value))
     return power * max(f for f in (1, 2, 5) if f * power <= 1.0001 * value)
-
-
-def has_screen():
-    """Whether ParaView, which crashes without, can open a window: where it
-    draws by X, that a server answers at DISPLAY."""
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (fills the factory)
-    from vtkmodules.vtkRenderingCore import vtkRenderWindow
-    if vtkRenderWindow().GetClassName() != "vtkXOpenGLRenderWindow":
-        return True
-    try:
-        x11 = ctypes.CDLL("libX11.so.6")
-    except OSError:
-        return True
-    x11.XOpenDisplay.restype = ctypes.c_void_p
-    display = x11.XOpenDisplay(None)
-    if display:
-        x11.XCloseDisplay(ctypes.c_void_p(display))
-    return bool(display)
 
 
 def find_paraview():

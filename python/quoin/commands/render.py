@@ -53,7 +53,8 @@ the directions of all three stresses.
 
 Blocks in three dimensions are seen from --camera; --cut draws what lies on one
 side of a plane, --explode moves them apart. Their faces at joints have the colours
-of joints where these open or slip.
+of joints where these open or slip. They need VTK's Python and, without a screen, Xvfb:
+apt-get install python3-vtk9 xvfb.
 
   scripts/render OUTPUT_DIR --colour displacement --cut 'y<0.4' --camera 30,20
   scripts/render OUTPUT_DIR/mechanism --explode 0.3
@@ -75,11 +76,9 @@ import numpy as np
 from quoin.commands.options import (Cut, Parser, add_picture_options,
                                     camera, positive)
 from quoin.figures import field_figure
-from quoin.figures.block_figure import Picture, frames_of
+from quoin.figures.block_figure import Picture, frames_of, is_in_space
 from quoin.figures.page_layout import draw_moment, draw_panel, write_film
 from quoin.moments import Moment, check_times, moments_at, recorded_times
-from quoin.figures.space_figure import (SpaceFrame, SpacePicture,
-                                        is_in_space)
 from quoin.stages import begin, end, time_of, time_or_name, times_or_names
 
 
@@ -153,6 +152,19 @@ def read_options():
     return options
 
 
+def space_figure():
+    """The module that draws three dimensions, for which VTK must be there."""
+    try:
+        from quoin.figures import space_figure as module
+    except ModuleNotFoundError as error:
+        if not error.name.startswith("vtkmodules"):
+            raise
+        raise ValueError("pictures in three dimensions are drawn by VTK, whose "
+                         "Python was not found. Install it: apt-get install "
+                         "python3-vtk9, or pip install vtk") from None
+    return module
+
+
 def draw(options):
     """Writes the figure and returns its name."""
     is_field = field_figure.is_field_run(options.output)
@@ -168,11 +180,11 @@ def draw(options):
                          "dimensions")
     frames = ([field_figure.FieldFrame(options.output, *moment)
                for moment in moments] if is_field else
-              [SpaceFrame(options.output, *moment)
+              [space_figure().SpaceFrame(options.output, *moment)
                for moment in moments] if in_space else
               frames_of(options.output, moments, options.since))
-    picture = (field_figure.FieldPicture if is_field else SpacePicture
-               if in_space else Picture)(options, frames)
+    picture = (field_figure.FieldPicture if is_field
+               else space_figure().SpacePicture if in_space else Picture)(options, frames)
     if options.animate and options.animate.endswith(".gif"):
         write_film(picture, frames, options.animate)
         return options.animate

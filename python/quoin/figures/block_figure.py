@@ -29,6 +29,15 @@ from quoin.stages import begin, since_text, time_of
 LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
 
 
+def is_in_space(output):
+    """Whether the blocks of a run are tetrahedra."""
+    path = os.path.join(output, "blocks.pvd")
+    if not vtu.exists(path):
+        return False
+    blocks = vtu.read_at(path)
+    return blocks is not None and blocks.cells.shape[1] == 4
+
+
 class Frame:
     """The fields of one moment; joints and contacts may be None. Joints that
     were handed over have what their contacts bear (joint_movement.py)."""
@@ -49,9 +58,9 @@ class Frame:
                              f"{os.path.join(output, 'blocks.pvd')}; was a "
                              f"field written?")
         if self.blocks.points.shape[1] == 3:
-            raise ValueError(f"{output}: blocks in three dimensions are not "
-                             "drawn here: take scripts/paraview_view, or open "
-                             "blocks.pvd in ParaView")
+            raise ValueError(f"{output}: blocks in three dimensions are "
+                             "drawn by scripts/render alone: take that, or "
+                             "open blocks.pvd in ParaView")
         if os.path.basename(os.path.abspath(output)) == "mechanism":
             # the series of a factor of safety lists its fields by it
             self.label = f"factor {self.blocks.time:.4g}"
@@ -158,7 +167,7 @@ PER = {"velocity": "/s", "displacement": ""}
 
 def cell_size(blocks, name):
     """Magnitude of a vector, averaged over the corners of each cell."""
-    size = np.linalg.norm(blocks.point_data[name][:, :2], axis=1)
+    size = np.linalg.norm(blocks.point_data[name], axis=1)
     return size[blocks.cells].mean(axis=1)
 
 
@@ -193,15 +202,8 @@ class Picture:
             self.high = np.max([p.max(axis=0) for p in places], axis=0)
         self.extent = self.high - self.low
 
-        # A few extremes must not make all others pale or thin.
-        self.sizes = self.contours = self.crosses = None
-        if options.colour in PER:
-            largest = max(np.quantile(cell_size(f.blocks, options.colour),
-                                      0.99) for f in frames)
-            # in the unit of the bar
-            self.factor, self.unit = scale_for("m", largest)
-            self.sizes = Normalize(0.0, self.factor * largest or 1.0,
-                                   clip=True)
+        self.contours = self.crosses = None
+        self.set_sizes(frames)
         if options.colour == "stress":
             self.contours = Contours(frames)
         self.is_panel = len(frames) > 1
@@ -215,6 +217,17 @@ class Picture:
         self.axial_force = max([axial_forces(f.cables).max() for f in frames
                                 if f.cables and len(f.cables.cells)],
                                default=0.0)
+
+    def set_sizes(self, frames):
+        """The range of colours of magnitudes, in the unit of their bar."""
+        self.sizes = None
+        if self.options.colour in PER:
+            # A few extremes must not make all others pale.
+            largest = max(np.quantile(cell_size(f.blocks, self.options.colour),
+                                      0.99) for f in frames)
+            self.factor, self.unit = scale_for("m", largest)
+            self.sizes = Normalize(0.0, self.factor * largest or 1.0,
+                                   clip=True)
 
     def joint_style(self, frames):
         if self.options.joints == "mode":

@@ -179,11 +179,12 @@ def write_film(picture, frames, path):
     step = int(np.clip(1000 * span / max(len(frames) - 1, 1), 50, 200))
     for dpi in (100, 80, 60, 45, 30):
         images = [film_image(picture, frame, dpi) for frame in frames]
-        # One palette for all, or the colours of the stones flicker.
+        # One palette for all, or the colours of the stones flicker; of octrees,
+        # which keep what is seen in few places, such as slipping joints.
         sample = Image.fromarray(np.hstack(
             [np.asarray(images[k]) for k in
              {0, len(images) // 2, len(images) - 1}]))
-        palette = sample.quantize(128)
+        palette = sample.quantize(128, Image.Quantize.FASTOCTREE)
         images = [image.quantize(palette=palette, dither=Image.Dither.NONE)
                   for image in images]
         images[0].save(path, save_all=True, append_images=images[1:],

@@ -91,34 +91,26 @@ def grid_points(blocks, spacing):
     return cell[inside][first], weight[inside][first]
 
 
-class Crosses:
-    """Crosses of all frames of a figure, with one scale."""
+class CrossLines:
+    """Crosses of all frames of a figure with one scale."""
 
-    def __init__(self, frames, size, n_across):
-        self.spacing = size / n_across
-        values = [self.values(frame.blocks) for frame in frames]
-        sizes = [np.maximum(np.abs(s1), np.abs(s2))
-                 for _, _, s1, s2, _ in values]
+    def __init__(self, sizes, spacing):
+        """@p sizes: of each frame the larger magnitudes of principal stresses
+        [Pa]; @p spacing: of the crosses [m]."""
         largest = max(size.max() for size in sizes)
         # The few crosses at a corner must not make all others invisible.
         self.reference = round_near(
             max(np.quantile(size, 0.9) for size in sizes) or largest)
         self.is_cut = largest > LONGEST * self.reference
-        self.half = 0.45 * self.spacing / self.reference
+        self.half = 0.45 * spacing / self.reference
 
-    def values(self, blocks):
-        cell, weight = grid_points(blocks, self.spacing)
-        nodes = blocks.cells[cell]
-        stress = np.einsum("ck,ckd->cd", weight, nodal_stress(blocks)[nodes])
-        return (nodes, weight, *principal(stress))
-
-    def draw(self, axes, frame, position, width):
-        nodes, weight, s1, s2, angle = self.values(frame.blocks)
-        centre = np.einsum("ck,ckd->cd", weight, position[nodes])
-        most = LONGEST * self.reference
-        for s, turned in ((s1, angle), (s2, angle + 0.5 * np.pi)):
-            half = self.half * np.clip(np.abs(s), 0.0, most)[:, None] \
-                * np.stack([np.cos(turned), np.sin(turned)], axis=1)
+    def draw_arms(self, axes, centre, arms, width):
+        """@p centre (n, 2) [m]; @p arms: stresses (n) [Pa] and their directions
+        (n, 2), shorter than 1 where these leave the page. Returns the handles of
+        the legend."""
+        for s, way in arms:
+            size = np.minimum(np.abs(s), LONGEST * self.reference)
+            half = self.half * size[:, None] * way
             lines = np.stack([centre - half, centre + half], axis=1)
             # White below them, or they are lost on dark colours of blocks.
             axes.add_collection(LineCollection(
@@ -143,6 +135,29 @@ class Crosses:
             text += f", cut at {with_unit(LONGEST * self.reference, 'Pa')}"
         axes.text(x + 1.4 * length, y, text, fontsize=7.5, va="center",
                   clip_on=False, zorder=5)
+
+
+class Crosses(CrossLines):
+    """Crosses on a regular grid in the blocks before deformation."""
+
+    def __init__(self, frames, size, n_across):
+        self.spacing = size / n_across
+        values = [self.values(frame.blocks) for frame in frames]
+        super().__init__([np.maximum(np.abs(s1), np.abs(s2))
+                          for _, _, s1, s2, _ in values], self.spacing)
+
+    def values(self, blocks):
+        cell, weight = grid_points(blocks, self.spacing)
+        nodes = blocks.cells[cell]
+        stress = np.einsum("ck,ckd->cd", weight, nodal_stress(blocks)[nodes])
+        return (nodes, weight, *principal(stress))
+
+    def draw(self, axes, frame, position, width):
+        nodes, weight, s1, s2, angle = self.values(frame.blocks)
+        centre = np.einsum("ck,ckd->cd", weight, position[nodes])
+        return self.draw_arms(axes, centre, [
+            (s, np.stack([np.cos(turned), np.sin(turned)], axis=1))
+            for s, turned in ((s1, angle), (s2, angle + 0.5 * np.pi))], width)
 
 
 class Contours:
