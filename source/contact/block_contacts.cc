@@ -188,7 +188,7 @@ namespace quoin
         if (acts[b * n_sets + s])
           for (const double largest : stiffness_bound(contact_laws.laws()[s]))
             stiffest[b] = std::max(stiffest[b], largest);
-    for_each_boundary_edge(
+    for_each_boundary_face(
         node_map, thickness,
         [&](const std::array<unsigned int, 2> &edge, const double tributary)
         {
@@ -763,19 +763,20 @@ namespace quoin
       const auto &[nx, ny] = at.normal;
       double v[2];
       moving.relative_velocity<1>(&a, &b, at.lower, at.upper, v);
-      const std::array<double, 2> rate
-          = { { v[0] * nx + v[1] * ny, v[0] * ny - v[1] * nx } };
+      const JointVector<2> rate
+          = { v[0] * nx + v[1] * ny, v[0] * ny - v[1] * nx };
       const auto times = dashpots.times(at.pair, damping, at.stiffness);
-      std::array<double, 2> traction{};
+      JointVector<2> traction;
       contact_laws.with_law(pair.set,
                             [&](const auto &law)
                             {
-                              traction = dashpot_tractions(
+                              traction = dashpot_tractions<2>(
                                   law, read_point(law, pair.points[at.k]),
-                                  at.gap, rate, times);
+                                  { at.gap[0], at.gap[1] }, rate, times);
                             });
-      const double sigma = at.area * traction[0], tau = at.area * traction[1];
-      const double f[2] = { sigma * nx + tau * ny, sigma * ny - tau * nx };
+      const double sigma = at.area * traction.normal,
+                   tau   = at.area * traction.shear;
+      const double f[2]  = { sigma * nx + tau * ny, sigma * ny - tau * nx };
       EdgeLanes<1> edge_a, edge_b;
       moving.load(&a, edge_a);
       moving.load(&b, edge_b);

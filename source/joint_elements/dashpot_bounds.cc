@@ -8,7 +8,8 @@
 
 namespace quoin
 {
-  void add_dashpots(const NodeMap<2> &nodes, const Thickness &thickness,
+  template <int dim>
+  void add_dashpots(const NodeMap<dim> &nodes, const Thickness &thickness,
                     const std::vector<std::uint8_t> &acts,
                     const std::vector<JointLaw> &laws,
                     const std::vector<JointDamping> &dampings,
@@ -17,11 +18,11 @@ namespace quoin
   {
     std::vector<dealii::Tensor<1, 1>> area(nodes.n_local(),
                                            dealii::Tensor<1, 1>({ 0. }));
-    for_each_boundary_edge(
+    for_each_boundary_face(
         nodes, thickness,
-        [&](const std::array<unsigned int, 2> &edge, const double tributary)
+        [&](const std::array<unsigned int, dim> &face, const double tributary)
         {
-          for (const unsigned int node : edge)
+          for (const unsigned int node : face)
             area[node][0] += tributary;
         });
     nodes.exchange().add_to_owners(area.data());
@@ -52,25 +53,16 @@ namespace quoin
     }
   }
 
-  std::vector<std::uint8_t> sets_on_blocks(const MatchedJoints &joints,
-                                           const NodeMap<2> &nodes)
-  {
-    const unsigned int n_sets = joints.laws().size();
-    std::vector<std::uint8_t> acts(nodes.table().n_blocks() * n_sets, 0);
-    for (const JointSegment &segment : joints.segments())
-      for (const unsigned int b : nodes.faces().joints[segment.face].blocks)
-        acts[b * n_sets + segment.set] = 1;
-    MPI_Allreduce(MPI_IN_PLACE, acts.data(), acts.size(), MPI_UINT8_T, MPI_MAX,
-                  nodes.communicator());
-    return acts;
-  }
-
-  void MatchedJoints::add_damping_bound(const std::vector<double> &masses,
-                                        const double impedance,
-                                        DampingBound &bound) const
-  {
-    add_dashpots(*node_map, thickness, sets_on_blocks(*this, *node_map),
-                 all_laws, dampings, masses, impedance, bound);
-  }
-
+  template void add_dashpots(const NodeMap<2> &, const Thickness &,
+                             const std::vector<std::uint8_t> &,
+                             const std::vector<JointLaw> &,
+                             const std::vector<JointDamping> &,
+                             const std::vector<double> &, double,
+                             DampingBound &);
+  template void add_dashpots(const NodeMap<3> &, const Thickness &,
+                             const std::vector<std::uint8_t> &,
+                             const std::vector<JointLaw> &,
+                             const std::vector<JointDamping> &,
+                             const std::vector<double> &, double,
+                             DampingBound &);
 } // namespace quoin
