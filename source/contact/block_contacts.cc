@@ -188,7 +188,7 @@ namespace quoin
         if (acts[b * n_sets + s])
           for (const double largest : stiffness_bound(contact_laws.laws()[s]))
             stiffest[b] = std::max(stiffest[b], largest);
-    for_each_boundary_face(
+    for_each_boundary_edge(
         node_map, thickness,
         [&](const std::array<unsigned int, 2> &edge, const double tributary)
         {
@@ -203,9 +203,18 @@ namespace quoin
                                         const double impedance,
                                         DampingBound &bound) const
   {
-    add_dashpots(
-        node_map, thickness, contact_laws.sets_on_blocks(joints, node_map),
-        contact_laws.laws(), contact_laws.dampings(), masses, impedance, bound);
+    NodeAreas area(node_map.n_local());
+    for_each_boundary_edge(
+        node_map, thickness,
+        [&](const std::array<unsigned int, 2> &edge, const double tributary)
+        {
+          for (const unsigned int node : edge)
+            area[node][0] += tributary;
+        });
+    node_map.exchange().add_to_owners(area.data());
+    add_dashpots(node_map, area, contact_laws.sets_on_blocks(joints, node_map),
+                 contact_laws.laws(), contact_laws.dampings(), masses,
+                 impedance, bound);
   }
   void BlockContacts::bind(const ContactState &contacts)
   {

@@ -9,23 +9,13 @@
 namespace quoin
 {
   template <int dim>
-  void add_dashpots(const NodeMap<dim> &nodes, const Thickness &thickness,
+  void add_dashpots(const NodeMap<dim> &nodes, const NodeAreas &area,
                     const std::vector<std::uint8_t> &acts,
                     const std::vector<JointLaw> &laws,
                     const std::vector<JointDamping> &dampings,
                     const std::vector<double> &masses, const double impedance,
                     DampingBound &bound)
   {
-    std::vector<dealii::Tensor<1, 1>> area(nodes.n_local(),
-                                           dealii::Tensor<1, 1>({ 0. }));
-    for_each_boundary_face(
-        nodes, thickness,
-        [&](const std::array<unsigned int, dim> &face, const double tributary)
-        {
-          for (const unsigned int node : face)
-            area[node][0] += tributary;
-        });
-    nodes.exchange().add_to_owners(area.data());
     const unsigned int n_sets = laws.size();
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
     {
@@ -53,13 +43,13 @@ namespace quoin
     }
   }
 
-  template void add_dashpots(const NodeMap<2> &, const Thickness &,
+  template void add_dashpots(const NodeMap<2> &, const NodeAreas &,
                              const std::vector<std::uint8_t> &,
                              const std::vector<JointLaw> &,
                              const std::vector<JointDamping> &,
                              const std::vector<double> &, double,
                              DampingBound &);
-  template void add_dashpots(const NodeMap<3> &, const Thickness &,
+  template void add_dashpots(const NodeMap<3> &, const NodeAreas &,
                              const std::vector<std::uint8_t> &,
                              const std::vector<JointLaw> &,
                              const std::vector<JointDamping> &,

@@ -182,8 +182,9 @@ namespace quoin
                                         const double impedance,
                                         DampingBound &bound) const
   {
-    add_dashpots(*node_map, thickness, sets_on_blocks(*this, *node_map),
-                 all_laws, dashpots.dampings(), masses, impedance, bound);
+    add_dashpots(*node_map, joint_areas(*this, *node_map),
+                 sets_on_blocks(*this, *node_map), all_laws,
+                 dashpots.dampings(), masses, impedance, bound);
   }
 
   void MatchedJoints::add_viscous_forces(const NodeRecord<2> *nodes,

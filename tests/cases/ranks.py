@@ -220,10 +220,13 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                "Stages/slide/Rayleigh stiffness "
                                "coefficient=1e-6",
                                "Output/Field interval=0.1"]),
-            # the same with dashpots of the joint, and whole blocks that meet
+            # the same with dashpots of the joint, which does not break before
+            # it bears more than rounding, and whole blocks that meet
             "space, dashpots": (os.path.join(common.VERIFICATION,
                                              "space_incline", "case.prm"),
-                                ["Joints/slope/Restitution=0.3"]),
+                                ["Joints/slope/Restitution=0.3",
+                                 "Joints/slope/Cohesion=2e3",
+                                 "Joints/slope/Tensile strength=2e3"]),
             "space, impacts": (IMPACTS, ["Stages/impact/Duration=0.02"]),
             # two platens in space, one free
             "space, platen": (PLATENS, PRESSED),

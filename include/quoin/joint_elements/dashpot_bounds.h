@@ -11,25 +11,21 @@
 
 namespace quoin
 {
-  /** Calls @p use (nodes, area of each [m^2]) for the faces of own blocks on
-      their boundaries. */
-  template <int dim, typename Use>
-  void for_each_boundary_face(const NodeMap<dim> &nodes,
+  /** Calls @p use (nodes, half of the area [m^2]) for the edges of own blocks
+      on their boundaries. */
+  template <typename Use>
+  void for_each_boundary_edge(const NodeMap<2> &nodes,
                               const Thickness &thickness, const Use &use)
   {
-    const auto take =
-        [&](const std::array<unsigned int, dim> &face, const unsigned int group)
+    const auto take
+        = [&](const std::array<unsigned int, 2> &edge, const unsigned int group)
     {
-      const auto edge = [&](const unsigned int k)
-      { return nodes.point(face[k]) - nodes.point(face[0]); };
-      if constexpr (dim == 2)
-        use(face, 0.5 * edge(1).norm() * thickness[group]);
-      else
-        use(face, cross_product_3d(edge(1), edge(2)).norm() / 6.);
+      use(edge, 0.5 * nodes.point(edge[0]).distance(nodes.point(edge[1]))
+                    * thickness[group]);
     };
-    for (const OuterFace<dim> &face : nodes.faces().outer)
+    for (const OuterFace<2> &face : nodes.faces().outer)
       take(face.nodes, nodes.cells().group[face.cell]);
-    for (const JointNodes<dim> &face : nodes.faces().joints)
+    for (const JointNodes<2> &face : nodes.faces().joints)
     {
       if (face.is_own[0])
         take(face.lower, face.groups[0]);
@@ -54,13 +50,34 @@ namespace quoin
     return acts;
   }
 
+  /** Areas at the local nodes [m^2]. */
+  using NodeAreas = std::vector<dealii::Tensor<1, 1>>;
+
+  /** Area of the joints at each owned node. Collective. */
+  template <int dim>
+  NodeAreas joint_areas(const JointsOf<dim> &joints, const NodeMap<dim> &nodes)
+  {
+    NodeAreas area(nodes.n_local());
+    for (const auto &face : joint_faces(joints))
+    {
+      const auto &is_own = nodes.faces().joints[face.face].is_own;
+      for (unsigned int k = 0; k < dim; ++k)
+      {
+        area[face.lower[k]][0] += is_own[0] ? point_area(face, k) : 0.;
+        area[face.upper[k]][0] += is_own[1] ? point_area(face, k) : 0.;
+      }
+    }
+    nodes.exchange().add_to_owners(area.data());
+    return area;
+  }
+
   /**
    * Adds the dashpots of the sets that act on each block to @p bound, see
-   * ForceOperator::add_damping_bound(). @p acts: see sets_on_blocks(); @p laws
-   * and @p dampings of each set. Collective.
+   * ForceOperator::add_damping_bound(). @p area: where they may act, of owned
+   * nodes; @p acts: see sets_on_blocks(); @p laws and @p dampings of each set.
    */
   template <int dim>
-  void add_dashpots(const NodeMap<dim> &nodes, const Thickness &thickness,
+  void add_dashpots(const NodeMap<dim> &nodes, const NodeAreas &area,
                     const std::vector<std::uint8_t> &acts,
                     const std::vector<JointLaw> &laws,
                     const std::vector<JointDamping> &dampings,

@@ -235,7 +235,7 @@ TEST(SpaceDashpots, TakeTheEnergyOfTheRatesAndNoMomentum)
   EXPECT_NEAR(power / wanted, 1., 1e-6);
 }
 
-// Of the formula of theory.md: c^2 of all nodes by the area of the block, and c
+// Of the formula of theory.md: c^2 of all nodes by the area of the joint, and c
 // by the impedance.
 TEST(SpaceDashpots, BoundsOfTheNodesAreThoseOfTheirAreas)
 {
@@ -250,15 +250,6 @@ TEST(SpaceDashpots, BoundsOfTheNodesAreThoseOfTheirAreas)
     return bound.dashpot;
   };
   const auto free = bound_of(infinity), capped = bound_of(1e3);
-  // Sides of a parallelepiped, as inclined() has them.
-  const auto origin = inclined({ 0., 0., 0. });
-  const Vector a    = inclined({ 1., 0., 0. }) - origin,
-               b    = inclined({ 0., 0.5, 0. }) - origin,
-               c    = inclined({ 0., 0., 0.5 }) - origin;
-  const double surface
-      = 2.
-        * (cross_product_3d(a, b).norm() + cross_product_3d(b, c).norm()
-           + cross_product_3d(c, a).norm());
   std::array<double, 2> squares{}, sums{};
   for (unsigned int i = 0; i < blocks.nodes.n_deformable_nodes(); ++i)
   {
@@ -268,7 +259,8 @@ TEST(SpaceDashpots, BoundsOfTheNodesAreThoseOfTheirAreas)
   for (const unsigned int high : { 0, 1 })
   {
     const double m = high ? 300. : 200.;
-    EXPECT_NEAR(squares[high] / (16. * xi * xi * m * kn * surface), 1., 1e-12);
-    EXPECT_NEAR(sums[high] / (2. * 1e3 * surface), 1., 1e-12);
+    EXPECT_NEAR(squares[high] / (16. * xi * xi * m * kn * blocks.area), 1.,
+                1e-12);
+    EXPECT_NEAR(sums[high] / (2. * 1e3 * blocks.area), 1., 1e-12);
   }
 }

@@ -122,7 +122,7 @@ TEST(SpaceFreeBodies, RefusedInAStaticStage)
 // of its dashpots.
 TEST(SpaceModel, DashpotsShortenTheStep)
 {
-  const BlockMesh<3> mesh
+  BlockMesh<3> mesh
       = space_stack::stack(2, [](const dealii::Point<3> &p) { return p; });
   const BlockTriangulation<3> blocks(
       mesh, std::vector<unsigned int>(mesh.n_cells(), 0), { false, false },
@@ -152,7 +152,9 @@ TEST(SpaceModel, DashpotsShortenTheStep)
     const double before = 4. * plain.stability().mass_for(i, 1.) / mass;
     const double after  = 4. * damped.stability().mass_for(i, 1.) / mass;
     const double h      = 2. / std::sqrt(after);
-    EXPECT_GT(after, 1.1 * before);
+    // those of the joint are in the middle
+    if (nodes.point(i)[2] == 0.5)
+      EXPECT_GT(after, 1.1 * before);
     EXPECT_NEAR(h * h * before + 2. * h * bound.dashpot[i] / mass, 4., 1e-9);
   }
 }
