@@ -103,8 +103,9 @@ namespace quoin
       damping.share.assign(nodes.table().n_blocks(), 0.);
       for (const ForceOperator<dim> *each : stiff_operators(model))
         each->add_damping_bound(block_masses(nodes, mass), impedance, damping);
-      /** omega^2 of undamped steps as short as those with dashpots of the rate
-          c/m: h^2 omega^2 + 2 h rate = 4 there. */
+      /** omega^2 of undamped steps as short as those with dashpots of twice
+          the @p rate, for several pairs of blocks at one node:
+          h^2 omega^2 + 4 h rate = 4 there. */
       const auto damped = [](const double eigenvalue, const double rate)
       {
         const double omega = rate + std::sqrt(rate * rate + eigenvalue);
