@@ -16,10 +16,9 @@ namespace quoin
 {
   void MatchedJoints::prepare(const NodeMap<2> &nodes,
                               const std::vector<JointSetParameters> &sets,
-                              const Thickness &group_thickness)
+                              const Thickness &thickness)
   {
-    node_map  = &nodes;
-    thickness = group_thickness;
+    node_map = &nodes;
     set_laws(sets);
     all_segments.clear();
     const BlockTable<2> &table = nodes.table();

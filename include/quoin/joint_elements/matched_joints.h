@@ -144,7 +144,6 @@ namespace quoin
 
   private:
     const NodeMap<2> *node_map = nullptr;
-    Thickness thickness;                    /**< thickness of cell groups */
     std::vector<JointSegment> all_segments; /**< sorted by set */
     JointDashpots dashpots;
     std::vector<JointLaw> all_laws;
