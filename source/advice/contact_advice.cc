@@ -21,20 +21,21 @@ namespace quoin
     }
 
     /** Two blocks of @p mass [kg] of @p material that meet at @p set. */
-    TypicalImpact impact_of(const double mass,
-                            const MaterialParameters &material,
-                            const JointSetParameters &set,
-                            const double thickness)
+    template <int dim>
+    TypicalImpact
+    impact_of(const double mass, const MaterialParameters &material,
+              const JointSetParameters &set, const double thickness)
     {
       TypicalImpact result;
-      result.exists    = true;
-      result.mass      = mass;
-      result.density   = material.elastic.density;
-      result.size      = std::sqrt(mass / (result.density * thickness));
-      const double kn  = stiffness_bound(set.law)[0];
-      result.stiffness = kn;
-      const double omega
-          = std::sqrt(kn * result.size * thickness / (0.5 * mass));
+      result.exists       = true;
+      result.mass         = mass;
+      result.density      = material.elastic.density;
+      const double volume = mass / result.density;
+      result.size
+          = dim == 2 ? std::sqrt(volume / thickness) : std::cbrt(volume);
+      const double kn    = stiffness_bound(set.law)[0];
+      result.stiffness   = kn;
+      const double omega = std::sqrt(kn * volume / result.size / (0.5 * mass));
       const double xi    = set.damping.normal;
       result.frequency   = omega / (2. * constants::pi);
       result.restitution = restitution_of_damping(xi);
@@ -111,10 +112,11 @@ namespace quoin
     }
   } // namespace
 
-  std::vector<TypicalImpact> typical_impacts(const Model<2> &model)
+  template <int dim>
+  std::vector<TypicalImpact> typical_impacts(const Model<dim> &model)
   {
     const ModelProperties &properties = model.properties();
-    const BlockTable<2> &table        = model.nodes().table();
+    const BlockTable<dim> &table      = model.nodes().table();
     const auto masses         = block_masses(model.nodes(), model.mass());
     const auto acts           = sets_on_blocks(model);
     const unsigned int n_sets = properties.joints.size();
@@ -133,15 +135,16 @@ namespace quoin
                        { return masses[a] < masses[b]; });
       const unsigned int material
           = properties.material_of_group[table.group[*middle]];
-      result[s] = impact_of(masses[*middle], properties.materials[material],
-                            properties.joints[s],
-                            model.thickness()[table.group[*middle]]);
+      result[s] = impact_of<dim>(
+          masses[*middle], properties.materials[material], properties.joints[s],
+          model.thickness()[table.group[*middle]]);
     }
     return result;
   }
 
-  std::vector<std::string> contact_lines(const Model<2> &model,
-                                         const State<2> &state)
+  template <int dim>
+  std::vector<std::string> contact_lines(const Model<dim> &model,
+                                         const State<dim> &state)
   {
     std::vector<std::string> lines;
     const auto impacts = typical_impacts(model);
@@ -156,16 +159,18 @@ namespace quoin
             " Hz, contact time ", impacts[s].duration, " s, restitution ",
             impacts[s].restitution, ", overlap at 1 m/s ",
             overlap_by_speed(impacts[s]), " m undamped"));
-    const auto gaps = gaps_of(model, state, impacts);
-    if (!gaps.empty())
-      lines.push_back(text_of(
-          count_text(gaps.size(), "block"), gaps.size() == 1 ? " has" : " have",
-          " a gap beside, ", range_text(gaps.front(), gaps.back()),
-          " m wide, half of them below ", gaps[gaps.size() / 2], " m"));
+    if constexpr (dim == 2)
+      if (const auto gaps = gaps_of(model, state, impacts); !gaps.empty())
+        lines.push_back(text_of(
+            count_text(gaps.size(), "block"),
+            gaps.size() == 1 ? " has" : " have", " a gap beside, ",
+            range_text(gaps.front(), gaps.back()),
+            " m wide, half of them below ", gaps[gaps.size() / 2], " m"));
     return lines;
   }
 
-  void check_contacts(const Model<2> &model, Advice &advice)
+  template <int dim>
+  void check_contacts(const Model<dim> &model, Advice &advice)
   {
     /** kn L/E of blocks above which they are no masses any more, and below
         which they are nothing else. */
@@ -183,7 +188,8 @@ namespace quoin
           "decide with which velocity they part, not the restitution ",
           impacts[s].restitution,
           " alone. For blocks that rebound with that take a tenth of "
-          "E/L or less, or rigid blocks.");
+          "E/L or less",
+          dim == 2 ? ", or rigid blocks." : ".");
       checks.warn_if(
           sets[s].curves.empty() && by_block > 0. && by_block < rigid_block
               && impacts[s].stiffness >= softest_joint,
@@ -265,4 +271,13 @@ namespace quoin
                      "softly. Raise their normal stiffness.");
     }
   }
+
+  template std::vector<TypicalImpact> typical_impacts(const Model<2> &);
+  template std::vector<std::string> contact_lines(const Model<2> &,
+                                                  const State<2> &);
+  template void check_contacts(const Model<2> &, Advice &);
+  template std::vector<TypicalImpact> typical_impacts(const Model<3> &);
+  template std::vector<std::string> contact_lines(const Model<3> &,
+                                                  const State<3> &);
+  template void check_contacts(const Model<3> &, Advice &);
 } // namespace quoin

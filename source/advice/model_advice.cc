@@ -408,12 +408,10 @@ namespace quoin
     check_initial_stress(model, advice);
     check_materials(parameters, model, advice);
     check_joints(parameters, model, advice);
+    if (!parameters.is_implicit)
+      check_contacts(model, advice);
     if constexpr (dim == 2)
-    {
-      if (!parameters.is_implicit)
-        check_contacts(model, advice);
       check_rigid_blocks(model, largest_gravity(parameters), advice);
-    }
     check_output(parameters, advice);
     return advice;
   }

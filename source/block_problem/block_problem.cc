@@ -136,10 +136,11 @@ namespace quoin
                  parameters.boundary, system.boundary_geometry,
                  start_of_stage(parameters.stages, parameters.stages.size())) })
         run.log.messages(lines);
+    if (run.options.check)
+      run.log.messages(contact_lines(*system.model, state));
     if constexpr (dim == 2)
       if (run.options.check)
       {
-        run.log.messages(contact_lines(*system.model, state));
         run.log.messages(named_block_lines(*system.model, system.named_blocks));
         run.log.messages(face_lines(parameters, *system.nodes));
         if (system.water)

@@ -203,9 +203,18 @@ namespace quoin
                                         const double impedance,
                                         DampingBound &bound) const
   {
-    add_dashpots(
-        node_map, thickness, contact_laws.sets_on_blocks(joints, node_map),
-        contact_laws.laws(), contact_laws.dampings(), masses, impedance, bound);
+    NodeAreas area(node_map.n_local());
+    for_each_boundary_edge(
+        node_map, thickness,
+        [&](const std::array<unsigned int, 2> &edge, const double tributary)
+        {
+          for (const unsigned int node : edge)
+            area[node][0] += tributary;
+        });
+    node_map.exchange().add_to_owners(area.data());
+    add_dashpots(node_map, area, contact_laws.sets_on_blocks(joints, node_map),
+                 contact_laws.laws(), contact_laws.dampings(), masses,
+                 impedance, bound);
   }
   void BlockContacts::bind(const ContactState &contacts)
   {
@@ -763,19 +772,20 @@ namespace quoin
       const auto &[nx, ny] = at.normal;
       double v[2];
       moving.relative_velocity<1>(&a, &b, at.lower, at.upper, v);
-      const std::array<double, 2> rate
-          = { { v[0] * nx + v[1] * ny, v[0] * ny - v[1] * nx } };
+      const JointVector<2> rate
+          = { v[0] * nx + v[1] * ny, v[0] * ny - v[1] * nx };
       const auto times = dashpots.times(at.pair, damping, at.stiffness);
-      std::array<double, 2> traction{};
+      JointVector<2> traction;
       contact_laws.with_law(pair.set,
                             [&](const auto &law)
                             {
-                              traction = dashpot_tractions(
+                              traction = dashpot_tractions<2>(
                                   law, read_point(law, pair.points[at.k]),
-                                  at.gap, rate, times);
+                                  { at.gap[0], at.gap[1] }, rate, times);
                             });
-      const double sigma = at.area * traction[0], tau = at.area * traction[1];
-      const double f[2] = { sigma * nx + tau * ny, sigma * ny - tau * nx };
+      const double sigma = at.area * traction.normal,
+                   tau   = at.area * traction.shear;
+      const double f[2]  = { sigma * nx + tau * ny, sigma * ny - tau * nx };
       EdgeLanes<1> edge_a, edge_b;
       moving.load(&a, edge_a);
       moving.load(&b, edge_b);

@@ -168,12 +168,12 @@ namespace quoin
     stepper.set_operators(forces, begun, acting.constraints, stage);
   }
 
-  template <>
-  void ExplicitSolver<2>::set_dashpots()
+  template <int dim>
+  void ExplicitSolver<dim>::set_dashpots()
   {
-    const NodeMap<2> &nodes = model.nodes();
+    const NodeMap<dim> &nodes = model.nodes();
     std::vector<std::uint8_t> is_held(nodes.table().n_blocks(), 0);
-    for (const MotionConstraint<2> *constraint : acting.constraints)
+    for (const MotionConstraint<dim> *constraint : acting.constraints)
       for (const unsigned int node : constraint->nodes())
         is_held[nodes.block_of_node(node)] = 1;
     const DashpotBlocks blocks = dashpot_blocks(model, is_held);
@@ -193,10 +193,8 @@ namespace quoin
     refuse_shared_platens(model, acting.constraints, stage);
     water.check_constraints(acting.constraints, stage);
     if constexpr (dim == 2)
-    {
       rigid_stage.held = find_held_blocks(model, acting.constraints, stage);
-      set_dashpots();
-    }
+    set_dashpots();
     find_moved_blocks(state);
     hold_removed_blocks(state);
     if (acting.pattern)

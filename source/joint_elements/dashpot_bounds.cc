@@ -8,23 +8,14 @@
 
 namespace quoin
 {
-  void add_dashpots(const NodeMap<2> &nodes, const Thickness &thickness,
+  template <int dim>
+  void add_dashpots(const NodeMap<dim> &nodes, const NodeAreas &area,
                     const std::vector<std::uint8_t> &acts,
                     const std::vector<JointLaw> &laws,
                     const std::vector<JointDamping> &dampings,
                     const std::vector<double> &masses, const double impedance,
                     DampingBound &bound)
   {
-    std::vector<dealii::Tensor<1, 1>> area(nodes.n_local(),
-                                           dealii::Tensor<1, 1>({ 0. }));
-    for_each_boundary_edge(
-        nodes, thickness,
-        [&](const std::array<unsigned int, 2> &edge, const double tributary)
-        {
-          for (const unsigned int node : edge)
-            area[node][0] += tributary;
-        });
-    nodes.exchange().add_to_owners(area.data());
     const unsigned int n_sets = laws.size();
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
     {
@@ -52,25 +43,16 @@ namespace quoin
     }
   }
 
-  std::vector<std::uint8_t> sets_on_blocks(const MatchedJoints &joints,
-                                           const NodeMap<2> &nodes)
-  {
-    const unsigned int n_sets = joints.laws().size();
-    std::vector<std::uint8_t> acts(nodes.table().n_blocks() * n_sets, 0);
-    for (const JointSegment &segment : joints.segments())
-      for (const unsigned int b : nodes.faces().joints[segment.face].blocks)
-        acts[b * n_sets + segment.set] = 1;
-    MPI_Allreduce(MPI_IN_PLACE, acts.data(), acts.size(), MPI_UINT8_T, MPI_MAX,
-                  nodes.communicator());
-    return acts;
-  }
-
-  void MatchedJoints::add_damping_bound(const std::vector<double> &masses,
-                                        const double impedance,
-                                        DampingBound &bound) const
-  {
-    add_dashpots(*node_map, thickness, sets_on_blocks(*this, *node_map),
-                 all_laws, dampings, masses, impedance, bound);
-  }
-
+  template void add_dashpots(const NodeMap<2> &, const NodeAreas &,
+                             const std::vector<std::uint8_t> &,
+                             const std::vector<JointLaw> &,
+                             const std::vector<JointDamping> &,
+                             const std::vector<double> &, double,
+                             DampingBound &);
+  template void add_dashpots(const NodeMap<3> &, const NodeAreas &,
+                             const std::vector<std::uint8_t> &,
+                             const std::vector<JointLaw> &,
+                             const std::vector<JointDamping> &,
+                             const std::vector<double> &, double,
+                             DampingBound &);
 } // namespace quoin

@@ -23,9 +23,9 @@ namespace quoin
                                        SpaceFaceLanes<native_lanes>>;
 
   template <int dim>
-  template <typename Face, typename Area>
+  template <typename Face>
   void FaceGroups<dim>::prepare(const std::vector<Face> &faces,
-                                const unsigned int n_sets, const Area &area)
+                                const unsigned int n_sets)
   {
     groups.clear();
     set_begin.assign(1, 0);
@@ -52,8 +52,8 @@ namespace quoin
             group.nodes[dim + k][l]      = face.upper[k] * bytes;
             if (l >= group.size)
               continue;
-            group.area[dim * l + k]   = area(face, k);
-            group.weight[dim * l + k] = area(face, k) * face.share;
+            group.area[dim * l + k]   = point_area(face, k);
+            group.weight[dim * l + k] = point_area(face, k) * face.share;
           }
         }
         groups.push_back(group);

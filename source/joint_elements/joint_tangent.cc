@@ -152,10 +152,9 @@ namespace quoin
       const auto [kn, ks] = stiffness_bound(joints.laws()[segment.set]);
       add_rate_forces(
           segment, nodes, displacement, [](unsigned int) { return true; },
-          [kn = kn, ks = ks](unsigned int, const PointMotion &motion)
-          {
-            return std::array<double, 2>{ { kn * motion.rate[0],
-                                            ks * motion.rate[1] } };
+          [kn = kn, ks = ks](unsigned int, const PointMotion<2> &motion) {
+            return JointVector<2>{ kn * motion.rate.normal,
+                                   ks * motion.rate.shear };
           },
           force);
     }

@@ -2,13 +2,13 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/operators/archive.h>
-#include <quoin/joint_elements/dashpot_tractions.h>
+#include <quoin/joint_elements/dashpot_bounds.h>
 #include <quoin/joint_elements/joint_tangent.h>
 
 #include <algorithm>
 
+#include "dashpot_forces.h"
 #include "face_group_forces.h"
-#include "joint_rates.h"
 #include "joint_sets.h"
 #include <quoin/joint_elements/joint_points.h>
 
@@ -16,10 +16,9 @@ namespace quoin
 {
   void MatchedJoints::prepare(const NodeMap<2> &nodes,
                               const std::vector<JointSetParameters> &sets,
-                              const Thickness &group_thickness)
+                              const Thickness &thickness)
   {
-    node_map  = &nodes;
-    thickness = group_thickness;
+    node_map = &nodes;
     set_laws(sets);
     all_segments.clear();
     const BlockTable<2> &table = nodes.table();
@@ -52,15 +51,8 @@ namespace quoin
     std::stable_sort(all_segments.begin(), all_segments.end(),
                      [](const JointSegment &a, const JointSegment &b)
                      { return a.set < b.set; });
-    segment_sides.clear();
-    for (const JointSegment &segment : all_segments)
-    {
-      const JointNodes<2> &face = nodes.faces().joints[segment.face];
-      segment_sides.push_back({ face.blocks, face.groups });
-    }
-    groups.prepare(all_segments, sets.size(),
-                   [](const JointSegment &segment, const unsigned int k)
-                   { return segment.area[k]; });
+    dashpots.set_faces(all_segments, nodes.faces().joints);
+    groups.prepare(all_segments, sets.size());
   }
 
   std::array<std::array<double, 2>, 2> joint_gaps(const JointSegment &segment,
@@ -99,8 +91,9 @@ namespace quoin
       add_viscous_forces(state.nodes.data(), history, state.velocity.data(),
                          step.stiffness_damping, forces.viscous);
     if (forces.viscous && has_dashpots())
-      add_dashpot_forces(state.nodes.data(), history, state.velocity.data(),
-                         forces.viscous);
+      dashpots.add_forces(all_segments, all_laws, state.nodes.data(), history,
+                          history.handed_over.data(), state.velocity.data(),
+                          forces.viscous);
   }
 
   void MatchedJoints::add_forces(const NodeRecord<2> *nodes,
@@ -148,12 +141,9 @@ namespace quoin
   void MatchedJoints::set_laws(const std::vector<JointSetParameters> &sets)
   {
     all_laws.clear();
-    dampings.clear();
     for (const auto &set : sets)
-    {
       all_laws.push_back(set.law);
-      dampings.push_back(set.damping);
-    }
+    dashpots.set_dampings(sets);
   }
 
   void MatchedJoints::add_stiffness_bound(
@@ -186,6 +176,16 @@ namespace quoin
       }
     }
   }
+
+  void MatchedJoints::add_damping_bound(const std::vector<double> &masses,
+                                        const double impedance,
+                                        DampingBound &bound) const
+  {
+    add_dashpots(*node_map, joint_areas(*this, *node_map),
+                 sets_on_blocks(*this, *node_map), all_laws,
+                 dashpots.dampings(), masses, impedance, bound);
+  }
+
   void MatchedJoints::add_viscous_forces(const NodeRecord<2> *nodes,
                                          const JointHistory &history,
                                          const dealii::Tensor<1, 2> *velocity,
@@ -203,70 +203,6 @@ namespace quoin
           all_laws[set]);
   }
 
-  void MatchedJoints::set_blocks(const DashpotBlocks &blocks)
-  {
-    dashpots.set_blocks(blocks);
-    dashpots.bind(segment_sides);
-  }
-
-  bool MatchedJoints::has_dashpots() const
-  {
-    return dashpots.knows_blocks()
-           && std::any_of(dampings.begin(), dampings.end(),
-                          [](const JointDamping &damping)
-                          { return damping.acts(); });
-  }
-
-  void MatchedJoints::add_dashpot_forces(const NodeRecord<2> *nodes,
-                                         const JointHistory &history,
-                                         const dealii::Tensor<1, 2> *velocity,
-                                         dealii::Tensor<1, 2> *force)
-  {
-    // A point that never failed carries tension, too.
-    const auto bears = [&](const unsigned int p)
-    {
-      return !history.handed_over[p / 2]
-             && (history.state[p] == JointState::intact
-                 || history.normal_traction[p] < 0.);
-    };
-    const auto stiffness = [&](const unsigned int p)
-    {
-      return std::visit(
-          [&](const auto &law)
-          { return law.stiffness_at(history.normal_traction[p]); },
-          all_laws[all_segments[p / 2].set]);
-    };
-    dashpots.clear();
-    for (unsigned int p = 0; p < n_points(); ++p)
-      if (bears(p))
-      {
-        const JointSegment &segment = all_segments[p / 2];
-        const auto [kn, ks]         = stiffness(p);
-        dashpots.add_springs(p / 2, segment.share, segment.area[p % 2] * kn,
-                             segment.area[p % 2] * ks);
-      }
-    dashpots.sum_over_ranks();
-
-    for (unsigned int i = 0; i < all_segments.size(); ++i)
-      if (const JointDamping &damping = dampings[all_segments[i].set];
-          damping.acts())
-        std::visit(
-            [&](const auto &law)
-            {
-              add_rate_forces(
-                  all_segments[i], nodes, velocity,
-                  [&](const unsigned int k) { return bears(2 * i + k); },
-                  [&](const unsigned int k, const PointMotion &motion)
-                  {
-                    const unsigned int p = 2 * i + k;
-                    return dashpot_tractions(
-                        law, read_point(law, history, p), motion.gap,
-                        motion.rate, dashpots.times(i, damping, stiffness(p)));
-                  },
-                  force);
-            },
-            all_laws[all_segments[i].set]);
-  }
   void MatchedJoints::linearise(State<2> &state, const bool with_stiffness,
                                 const TakeElement<2> &take) const
   {

@@ -1,69 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/joint_elements/dashpot_bounds.h>
 #include <quoin/joint_elements/joint_tangent.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot_forces.h"
 #include "face_group_forces.h"
 #include "joint_sets.h"
-#include "space_face.h"
 
 namespace quoin
 {
-  namespace
-  {
-    Vector vector_of(const dealii::Tensor<1, 3> &node)
-    {
-      return Vector({ node[0], node[1], node[2] });
-    }
-
-    /** How fast @p frame turns as its nodes move with @p velocity [1/s]. */
-    Vector rotation_rate(const SpaceJointFace &face,
-                         const SpaceJointFrame &frame,
-                         const dealii::Tensor<1, 3> *velocity)
-    {
-      const auto edge = [&](const unsigned int k)
-      {
-        return 0.5
-               * (vector_of(velocity[face.lower[k]])
-                  - vector_of(velocity[face.lower[0]])
-                  + vector_of(velocity[face.upper[k]])
-                  - vector_of(velocity[face.upper[0]]));
-      };
-      const Vector v1 = edge(1), v2 = edge(2);
-      const double about_t = -(v1 * frame.n) / frame.length;
-      return (v2 * frame.n + about_t * frame.along) / frame.above * frame.s
-             + about_t * frame.t + v1 * frame.t / frame.length * frame.n;
-    }
-
-    /** add_face_forces() of springs @p stiffness (k), normal and shear, per
-        area [Pa s/m] on rates. */
-    template <typename Stiffness>
-    void add_rate_forces(const SpaceJointFace &face, const NodeRecord<3> *nodes,
-                         const dealii::Tensor<1, 3> *velocity,
-                         const Stiffness &stiffness,
-                         dealii::Tensor<1, 3> *force)
-    {
-      const SpaceJointFrame frame = joint_frame(face, nodes);
-      const Vector turn           = rotation_rate(face, frame, velocity);
-      add_face_forces(
-          face, frame, nodes,
-          [&](const unsigned int k, const Vector &gap)
-          {
-            const auto [kn, ks] = stiffness(k);
-            const Vector rate   = vector_of(velocity[face.upper[k]])
-                                - vector_of(velocity[face.lower[k]])
-                                - cross_product_3d(turn, gap);
-            const double opening = rate * frame.n;
-            return face.area * ((kn - ks) * opening * frame.n + ks * rate);
-          },
-          force);
-    }
-  } // namespace
-
   SpaceJointFrame joint_frame(const SpaceJointFace &face,
                               const NodeRecord<3> *nodes)
   {
@@ -89,6 +39,7 @@ namespace quoin
   void SpaceJoints::prepare(const NodeMap<3> &nodes,
                             const std::vector<JointSetParameters> &sets)
   {
+    node_map = &nodes;
     set_laws(sets);
     all_faces.clear();
     const auto set_of_name = sets_of_names<3>(nodes.table().face_names, sets);
@@ -118,9 +69,8 @@ namespace quoin
     std::stable_sort(all_faces.begin(), all_faces.end(),
                      [](const SpaceJointFace &a, const SpaceJointFace &b)
                      { return a.set < b.set; });
-    groups.prepare(all_faces, sets.size(),
-                   [](const SpaceJointFace &face, unsigned int)
-                   { return face.area; });
+    dashpots.set_faces(all_faces, nodes.faces().joints);
+    groups.prepare(all_faces, sets.size());
   }
 
   void SpaceJoints::set_laws(const std::vector<JointSetParameters> &sets)
@@ -128,6 +78,7 @@ namespace quoin
     all_laws.clear();
     for (const JointSetParameters &set : sets)
       all_laws.push_back(set.law);
+    dashpots.set_dampings(sets);
   }
 
   void SpaceJoints::prepare(State<3> &state) const
@@ -153,6 +104,10 @@ namespace quoin
     if (forces.viscous && step.stiffness_damping > 0.)
       add_viscous_forces(state.nodes.data(), history, state.velocity.data(),
                          step.stiffness_damping, forces.viscous);
+    if (forces.viscous && has_dashpots())
+      dashpots.add_forces(all_faces, all_laws, state.nodes.data(), history,
+                          history.detached.data(), state.velocity.data(),
+                          forces.viscous);
   }
 
   void SpaceJoints::add_forces(const NodeRecord<3> *nodes,
@@ -196,11 +151,16 @@ namespace quoin
                           dealii::Tensor<1, 3> *force)
   {
     for (const SpaceJointFace &face : joints.faces())
+    {
+      const auto [kn, ks] = stiffness_bound(joints.laws()[face.set]);
       add_rate_forces(
-          face, nodes, displacement,
-          [stiffness = stiffness_bound(joints.laws()[face.set])](unsigned int)
-          { return stiffness; },
+          face, nodes, displacement, [](unsigned int) { return true; },
+          [kn = kn, ks = ks](unsigned int, const PointMotion<3> &motion) {
+            return JointVector<3>{ kn * motion.rate.normal,
+                                   ks * motion.rate.shear };
+          },
           force);
+    }
   }
 
   Vector SpaceJoints::force_on_upper(const unsigned int i,
@@ -271,6 +231,15 @@ namespace quoin
         }
       }
     }
+  }
+
+  void SpaceJoints::add_damping_bound(const std::vector<double> &masses,
+                                      const double impedance,
+                                      DampingBound &bound) const
+  {
+    add_dashpots(*node_map, joint_areas(*this, *node_map),
+                 sets_on_blocks(*this, *node_map), all_laws,
+                 dashpots.dampings(), masses, impedance, bound);
   }
 
   std::vector<std::string> law_field_names(const SpaceJoints &joints)

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/joint_elements/dashpot_bounds.h>
 #include <quoin/model/contact_bounds.h>
 
 #include <limits>
 
 namespace quoin
 {
-  std::vector<double> block_masses(const NodeMap<2> &nodes,
+  template <int dim>
+  std::vector<double> block_masses(const NodeMap<dim> &nodes,
                                    const std::vector<double> &node_mass)
   {
     std::vector<double> masses(nodes.table().n_blocks(), 0.);
@@ -36,10 +38,11 @@ namespace quoin
     return result;
   }
 
-  DashpotBlocks dashpot_blocks(const Model<2> &model,
+  template <int dim>
+  DashpotBlocks dashpot_blocks(const Model<dim> &model,
                                std::vector<std::uint8_t> is_held)
   {
-    const NodeMap<2> &nodes = model.nodes();
+    const NodeMap<dim> &nodes = model.nodes();
     DashpotBlocks result;
     result.communicator = nodes.communicator();
     MPI_Allreduce(MPI_IN_PLACE, is_held.data(), is_held.size(), MPI_UINT8_T,
@@ -59,11 +62,23 @@ namespace quoin
     return result;
   }
 
-  std::vector<std::uint8_t> sets_on_blocks(const Model<2> &model)
+  template <int dim>
+  std::vector<std::uint8_t> sets_on_blocks(const Model<dim> &model)
   {
-    const BlockContacts *contacts = model.contacts();
-    return contacts
-               ? contacts->laws().sets_on_blocks(model.joints(), model.nodes())
-               : sets_on_blocks(model.joints(), model.nodes());
+    if constexpr (dim == 2)
+      if (const BlockContacts *contacts = model.contacts())
+        return contacts->laws().sets_on_blocks(model.joints(), model.nodes());
+    return sets_on_blocks<dim>(model.joints(), model.nodes());
   }
+
+  template std::vector<double> block_masses(const NodeMap<2> &,
+                                            const std::vector<double> &);
+  template DashpotBlocks dashpot_blocks(const Model<2> &,
+                                        std::vector<std::uint8_t>);
+  template std::vector<std::uint8_t> sets_on_blocks(const Model<2> &);
+  template std::vector<double> block_masses(const NodeMap<3> &,
+                                            const std::vector<double> &);
+  template DashpotBlocks dashpot_blocks(const Model<3> &,
+                                        std::vector<std::uint8_t>);
+  template std::vector<std::uint8_t> sets_on_blocks(const Model<3> &);
 } // namespace quoin

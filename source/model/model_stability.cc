@@ -82,11 +82,12 @@ namespace quoin
 
     /** Adds to both bounds, of owned nodes [N/m] and of rigid blocks [1/s^2],
         what dashpots take of the step. Collective. */
-    void add_dashpot_bound(const Model<2> &model,
-                           std::vector<NodeStiffness<2>> &bound,
+    template <int dim>
+    void add_dashpot_bound(const Model<dim> &model,
+                           std::vector<NodeStiffness<dim>> &bound,
                            std::vector<double> &rigid_bound)
     {
-      const NodeMap<2> &nodes         = model.nodes();
+      const NodeMap<dim> &nodes       = model.nodes();
       const std::vector<double> &mass = model.mass();
       const ModelProperties &now      = model.properties();
       if (std::none_of(now.joints.begin(), now.joints.end(),
@@ -100,10 +101,11 @@ namespace quoin
       DampingBound damping;
       damping.dashpot.assign(nodes.n_deformable_nodes(), 0.);
       damping.share.assign(nodes.table().n_blocks(), 0.);
-      for (const ForceOperator<2> *each : stiff_operators(model))
+      for (const ForceOperator<dim> *each : stiff_operators(model))
         each->add_damping_bound(block_masses(nodes, mass), impedance, damping);
-      /** omega^2 of undamped steps as short as those with dashpots of the rate
-          c/m: h^2 omega^2 + 2 h rate = 4 there. */
+      /** omega^2 of undamped steps as short as those with dashpots of twice
+          the @p rate, for several pairs of blocks at one node:
+          h^2 omega^2 + 4 h rate = 4 there. */
       const auto damped = [](const double eigenvalue, const double rate)
       {
         const double omega = rate + std::sqrt(rate * rate + eigenvalue);
@@ -112,9 +114,9 @@ namespace quoin
       for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
       {
         const double own
-            = StableTimeStep<2>({ bound[i] }).largest_eigenvalue({ mass[i] });
+            = StableTimeStep<dim>({ bound[i] }).largest_eigenvalue({ mass[i] });
         const double rate = damping.dashpot[i] / mass[i];
-        for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int c = 0; c < dim; ++c)
           bound[i][c] += mass[i] * (damped(own, rate) - own);
       }
       const unsigned int first = nodes.blocks().n_deformable;
@@ -147,9 +149,9 @@ namespace quoin
       const RigidBlocks &rigid = model.rigid_blocks();
       for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
         rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
-      if (with_springs)
-        add_dashpot_bound(model, bound, rigid_bound);
     }
+    if (with_springs)
+      add_dashpot_bound(model, bound, rigid_bound);
     std::fill(bound.begin() + nodes.n_deformable_nodes(), bound.end(),
               NodeStiffness<dim>{});
     StableTimeStep<dim> result(bound);

@@ -49,10 +49,6 @@ namespace quoin
       for (const JointSetParameters &set : parameters.model.joints)
       {
         const std::string section = "section 'Joints/" + set.name + "': ";
-        refusals.refuse_if(set.damping.acts(), section + "a dashpot",
-                           "Leave the damping of joints out, or damp the stage "
-                           "by 'Damping = Rayleigh' with a stiffness "
-                           "coefficient.");
         refusals.refuse_if(set.all_new_contacts || !set.new_contacts.empty(),
                            section + "'New contacts between'",
                            "Leave it empty.");

@@ -13,7 +13,7 @@ without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated, whole
 and divided. A divided block that slides along another one, from a joint that slipped
 on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra, without and
-with joints, and with a crack. Bars through
+with joints and their dashpots, and with a crack. Bars through
 divided blocks, by both solvers. A wall in equilibrium, cracking, to what its
 iterations leave, by both linear solvers; water in a joint by both solvers; a block that
 is distributed over 2 and 3 ranks in equilibrium, without
@@ -71,6 +71,7 @@ COLLAPSING = ["Materials/block/Law=linear elastic",
               "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 BARS = os.path.join(common.ROOT, "tests", "cases", "bars.prm")
 PLATENS = os.path.join(common.VERIFICATION, "space_platens", "case.prm")
+IMPACTS = os.path.join(common.VERIFICATION, "space_dashpots", "impacts.prm")
 TURNING = os.path.join(common.VERIFICATION, "space_platens", "turning.prm")
 PRESSED = ["Stages/load/End=time", "Stages/load/Duration=5e-3",
            "Stages/load/Damping=none", "Histories/Interval=1e-4",
@@ -219,6 +220,14 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                "Stages/slide/Rayleigh stiffness "
                                "coefficient=1e-6",
                                "Output/Field interval=0.1"]),
+            # the same with dashpots of the joint, which does not break before
+            # it bears more than rounding, and whole blocks that meet
+            "space, dashpots": (os.path.join(common.VERIFICATION,
+                                             "space_incline", "case.prm"),
+                                ["Joints/slope/Restitution=0.3",
+                                 "Joints/slope/Cohesion=2e3",
+                                 "Joints/slope/Tensile strength=2e3"]),
+            "space, impacts": (IMPACTS, ["Stages/impact/Duration=0.02"]),
             # two platens in space, one free
             "space, platen": (PLATENS, PRESSED),
             "implicit, space, platen": (

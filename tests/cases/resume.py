@@ -51,6 +51,12 @@ CASES = {
                                    "case.prm"),
                       ["Output/Checkpoint interval=0.02",
                        "Output/Field interval=0.1"], 2, 2),
+    # blocks that meet on dashpots
+    "space, dashpots": (os.path.join(common.VERIFICATION, "space_dashpots",
+                                     "impacts.prm"),
+                        ["Output/Checkpoint interval=0.02",
+                         "Stages/impact/Duration=0.02",
+                         "Histories/Interval=1e-5"], 2, 2),
     # plane waves that come in askew, from all sides
     "space, oblique wave": (os.path.join(common.VERIFICATION,
                                          "space_oblique_waves", "case.prm"),

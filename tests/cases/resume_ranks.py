@@ -70,6 +70,7 @@ CASES = {
     "bars": of_ranks("bars", ALL),
     "implicit, bars": of_ranks("implicit, bars", UP),
     "space, joints": of_ranks("space, joints", ALL),
+    "space, dashpots": of_ranks("space, dashpots", UP),
     "space, platen": of_ranks("space, platen", UP,
                               ["Stages/load/Duration=0.05"]),
     "space, rock joint": of_ranks("space, rock joint", ALL),

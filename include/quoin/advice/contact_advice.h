@@ -12,14 +12,15 @@
 namespace quoin
 {
   /**
-   * Two squares as heavy as the median of the blocks on which a set of joints
-   * acts, which meet with a whole side: masses on springs and dashpots.
+   * Two squares, or cubes, as heavy as the median of the blocks on which a set
+   * of joints acts, which meet with a whole side: masses on springs and
+   * dashpots.
    */
   struct TypicalImpact
   {
     bool exists        = false; /**< whether the set acts on a block */
     double mass        = 0.;    /**< mass of a block [kg] */
-    double size        = 0.;    /**< length of the side in contact [m] */
+    double size        = 0.;    /**< length of an edge [m] */
     double density     = 0.;    /**< [kg/m^3] */
     double stiffness   = 0.;    /**< normal one of the set [Pa/m] */
     double frequency   = 0.;    /**< undamped [Hz] */
@@ -31,17 +32,20 @@ namespace quoin
 
   /** An impact of typical blocks for each joint set of @p model, at the set's
       largest stiffness. Collective. */
-  std::vector<TypicalImpact> typical_impacts(const Model<2> &model);
+  template <int dim>
+  std::vector<TypicalImpact> typical_impacts(const Model<dim> &model);
 
   /** A line for --check about each joint set that has dashpots or is for new
       contacts, and with large displacements one about the gaps between the
       blocks of @p state. Collective. */
-  std::vector<std::string> contact_lines(const Model<2> &model,
-                                         const State<2> &state);
+  template <int dim>
+  std::vector<std::string> contact_lines(const Model<dim> &model,
+                                         const State<dim> &state);
 
   /** Warns of restitution that waves in blocks will change, and of sets
       for new contacts alone beside which blocks do not deform. */
-  void check_contacts(const Model<2> &model, Advice &advice);
+  template <int dim>
+  void check_contacts(const Model<dim> &model, Advice &advice);
 
   /** Warns of sets between rigid blocks that sink into each other under
       @p gravity [m/s^2] of a column as high as the model. Collective. */

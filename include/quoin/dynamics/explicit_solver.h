@@ -220,8 +220,6 @@ namespace quoin
 
   // Members that exist in two dimensions only.
   template <>
-  void ExplicitSolver<2>::set_dashpots();
-  template <>
   void ExplicitSolver<2>::look_at_box(State<2> &state);
   template <>
   void ExplicitSolver<2>::remove_blocks(const std::vector<BlockOutside> &found,

@@ -10,9 +10,18 @@
 
 namespace quoin
 {
+  /** Opening and slip of a joint point [m], their rates [m/s], or tractions
+      [Pa]. */
+  template <int dim>
+  struct JointVector
+  {
+    double normal = 0.;
+    Slip<dim> shear{};
+  };
+
   /**
-   * Normal and shear traction [Pa] of the dashpots of @p point at the opening
-   * and slip @p gap [m], which change at @p rate [m/s]: the tractions that the
+   * Tractions [Pa] of the dashpots of @p point at the opening and slip @p gap
+   * [m], which change at @p rate [m/s]: the tractions that the
    * law has at the gap of @p times [s] later, at these rates, less those of
    * now. So the law bounds springs and dashpots together: they do not pull
    * beyond its tension, and friction is that of the whole pressure, also while
@@ -21,17 +30,17 @@ namespace quoin
    * A joint that never failed breaks by its springs alone: beyond its strength
    * the dashpots rest.
    */
-  template <typename Law, typename Point>
-  std::array<double, 2> dashpot_tractions(const Law &law, const Point &point,
-                                          const std::array<double, 2> &gap,
-                                          const std::array<double, 2> &rate,
-                                          const std::array<double, 2> &times)
+  template <int dim, typename Law>
+  JointVector<dim>
+  dashpot_tractions(const Law &law, const PointOf<Law, dim> &point,
+                    const JointVector<dim> &gap, const JointVector<dim> &rate,
+                    const std::array<double, 2> &times)
   {
     const double slip_time = point.state == JointState::slipping
                                  ? std::max(times[0], times[1])
                                  : times[1];
-    const double opening   = gap[0] + times[0] * rate[0];
-    const double slip      = gap[1] + slip_time * rate[1];
+    const double opening   = gap.normal + times[0] * rate.normal;
+    const Slip<dim> slip   = gap.shear + slip_time * rate.shear;
     auto ahead             = point;
     if (!law.update_elastic(ahead, opening, slip))
     {
@@ -39,8 +48,8 @@ namespace quoin
         return {};
       law.update_failing(ahead, opening, slip);
     }
-    return { { ahead.normal_traction - point.normal_traction,
-               ahead.shear_traction - point.shear_traction } };
+    return { ahead.normal_traction - point.normal_traction,
+             ahead.shear_traction - point.shear_traction };
   }
 } // namespace quoin
 

@@ -37,11 +37,9 @@ namespace quoin
   class FaceGroups
   {
   public:
-    /** Groups @p faces, which are sorted by the @p n_sets sets; @p area (face,
-        k): of its points [m^2]. */
-    template <typename Face, typename Area>
-    void prepare(const std::vector<Face> &faces, unsigned int n_sets,
-                 const Area &area);
+    /** Groups @p faces, which are sorted by the @p n_sets sets. */
+    template <typename Face>
+    void prepare(const std::vector<Face> &faces, unsigned int n_sets);
 
     /**
      * Updates the internal variables of the points of @p set in @p history for

@@ -5,8 +5,8 @@
 #define quoin_joint_elements_matched_joints_h
 
 #include <quoin/base/thickness.h>
-#include <quoin/joint_elements/pair_dashpots.h>
 #include <quoin/joint_elements/face_groups.h>
+#include <quoin/joint_elements/joint_dashpots.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/joint_laws/joint_parameters.h>
@@ -27,6 +27,12 @@ namespace quoin
     unsigned int set;
     unsigned int face; /**< index into LocalFaces::joints */
   };
+
+  /** Area of point @p k [m^2]. */
+  inline double point_area(const JointSegment &segment, const unsigned int k)
+  {
+    return segment.area[k];
+  }
 
   /** Opening and slip [m] of both points of @p segment. */
   std::array<std::array<double, 2>, 2> joint_gaps(const JointSegment &segment,
@@ -105,9 +111,15 @@ namespace quoin
     void set_laws(const std::vector<JointSetParameters> &sets);
 
     /** Sets what dashpots need, without which there are none. Collective. */
-    void set_blocks(const DashpotBlocks &blocks);
+    void set_blocks(const DashpotBlocks &blocks)
+    {
+      dashpots.set_blocks(blocks);
+    }
     /** Whether a set has dashpots that act. */
-    bool has_dashpots() const;
+    bool has_dashpots() const
+    {
+      return dashpots.act();
+    }
 
     /**
      * Updates the internal variables for the positions in @p nodes, adds the
@@ -131,26 +143,12 @@ namespace quoin
                    const TakeElement<2> &take) const override;
 
   private:
-    void add_dashpot_forces(const NodeRecord<2> *nodes,
-                            const JointHistory &history,
-                            const dealii::Tensor<1, 2> *velocity,
-                            dealii::Tensor<1, 2> *force);
-
     const NodeMap<2> *node_map = nullptr;
-    Thickness thickness;                    /**< thickness of cell groups */
     std::vector<JointSegment> all_segments; /**< sorted by set */
-    /** Blocks and groups of each segment. */
-    std::vector<PairDashpots::Item> segment_sides;
-    std::vector<JointDamping> dampings; /**< damping of each joint set */
-    PairDashpots dashpots;
+    JointDashpots dashpots;
     std::vector<JointLaw> all_laws;
     FaceGroups<2> groups;
   };
-
-  /** Which sets have joints at each block of the mesh: entry b n + s is 1 if
-     set s of n has. Collective. */
-  std::vector<std::uint8_t> sets_on_blocks(const MatchedJoints &joints,
-                                           const NodeMap<2> &nodes);
 } // namespace quoin
 
 #endif

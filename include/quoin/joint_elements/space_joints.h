@@ -27,6 +27,12 @@ namespace quoin
     unsigned int face; /**< index into LocalFaces::joints */
   };
 
+  /** Area of each point [m^2]. */
+  inline double point_area(const SpaceJointFace &face, unsigned int)
+  {
+    return face.area;
+  }
+
   /**
    * The frame of a joint face and how it turns. Its plane is that of the mean
    * of both sides, with the edges E1 and E2 from its first vertex:
@@ -71,8 +77,9 @@ namespace quoin
   {
   public:
     /**
-     * Takes the joint faces of @p nodes. Throws an InputError about a joint
-     * face that belongs to no set, or a surface named by two sets.
+     * Takes the joint faces of @p nodes, to which it keeps a reference. Throws
+     * an InputError about a joint face that belongs to no set, or a surface
+     * named by two sets.
      */
     void prepare(const NodeMap<3> &nodes,
                  const std::vector<JointSetParameters> &sets);
@@ -97,6 +104,8 @@ namespace quoin
     void add_stiffness_bound(
         const State<3> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<3>> &stiffness) const override;
+    void add_damping_bound(const std::vector<double> &masses, double impedance,
+                           DampingBound &bound) const override;
 
     /** See joint_tangent.h and BreakingJoints. */
     void linearise(State<3> &state, bool with_stiffness,
@@ -114,6 +123,17 @@ namespace quoin
     const std::vector<JointLaw> &laws() const
     {
       return all_laws;
+    }
+
+    /** Sets what dashpots need, without which there are none. Collective. */
+    void set_blocks(const DashpotBlocks &blocks)
+    {
+      dashpots.set_blocks(blocks);
+    }
+    /** Whether a set has dashpots that act. */
+    bool has_dashpots() const
+    {
+      return dashpots.act();
     }
 
     /**
@@ -135,7 +155,9 @@ namespace quoin
                                         const State<3> &state) const;
 
   private:
+    const NodeMap<3> *node_map = nullptr;
     std::vector<SpaceJointFace> all_faces; /**< sorted by set */
+    JointDashpots dashpots;
     std::vector<JointLaw> all_laws;
     FaceGroups<3> groups;
   };

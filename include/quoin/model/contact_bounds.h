@@ -13,7 +13,8 @@
 namespace quoin
 {
   /** Mass of each block of the mesh [kg], without mass scaling. Collective. */
-  std::vector<double> block_masses(const NodeMap<2> &nodes,
+  template <int dim>
+  std::vector<double> block_masses(const NodeMap<dim> &nodes,
                                    const std::vector<double> &node_mass);
 
   /** P and S wave impedance of each cell group [Pa s/m]; infinite: rigid. */
@@ -22,12 +23,14 @@ namespace quoin
 
   /** Data of the blocks for dashpots; @p is_held marks blocks that a load holds
       or moves, on any rank. Collective. */
-  DashpotBlocks dashpot_blocks(const Model<2> &model,
+  template <int dim>
+  DashpotBlocks dashpot_blocks(const Model<dim> &model,
                                std::vector<std::uint8_t> is_held);
 
   /** sets_on_blocks() of the joints or, if blocks may meet anywhere,
       ContactLaws::sets_on_blocks(). Collective. */
-  std::vector<std::uint8_t> sets_on_blocks(const Model<2> &model);
+  template <int dim>
+  std::vector<std::uint8_t> sets_on_blocks(const Model<dim> &model);
 } // namespace quoin
 
 #endif

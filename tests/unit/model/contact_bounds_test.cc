@@ -109,7 +109,7 @@ TEST(ContactBounds, DashpotsShortenTheStep)
 TEST(ContactBounds, MassesOfBlocks)
 {
   const Stack stack(1e9, 1e9, 1e9, 1e9);
-  const auto masses = block_masses(stack.nodes, stack.model.mass());
+  const auto masses = block_masses(*stack.nodes, stack.model.mass());
   ASSERT_EQ(masses.size(), 2U);
   for (const double mass : masses)
     EXPECT_NEAR(mass, 4. * 0.5 * 2500., 1e-9);

@@ -3,7 +3,7 @@
 
 // A model in three dimensions: what holds it and what pushes it.
 
-#include "../mesh/space_box.h"
+#include "../joint_elements/space_stack.h"
 #include "test_models.h"
 
 #include <quoin/base/exceptions.h>
@@ -115,5 +115,45 @@ TEST(SpaceFreeBodies, RefusedInAStaticStage)
     // Neither joints nor contacts can be the cure.
     EXPECT_EQ(text.find("Joints along"), std::string::npos) << text;
     EXPECT_EQ(text.find("Displacements"), std::string::npos) << text;
+  }
+}
+
+// At the critical step of each node h^2 omega^2 + 2 h c/m = 4, where c is twice
+// the bound d of its dashpots, for several pairs of blocks.
+TEST(SpaceModel, DashpotsShortenTheStep)
+{
+  BlockMesh<3> mesh
+      = space_stack::stack(2, [](const dealii::Point<3> &p) { return p; });
+  const BlockTriangulation<3> blocks(
+      mesh, std::vector<unsigned int>(mesh.n_cells(), 0), { false, false },
+      MPI_COMM_SELF);
+  const NodeMap<3> nodes(blocks);
+  constexpr double density = 2500., young = 1e10, poisson = 0.2, xi = 0.8;
+  ModelParameters parameters;
+  parameters.materials = { material("low", density, young, poisson),
+                           material("high", density, young, poisson) };
+  parameters.joints    = { space_stack::set_of(space_stack::elastic()) };
+  const Model<3> plain(nodes, parameters);
+  parameters.joints[0].damping = { xi, xi };
+  const Model<3> damped(nodes, parameters);
+
+  DampingBound bound;
+  bound.dashpot.assign(nodes.n_deformable_nodes(), 0.);
+  bound.share.assign(2, 0.);
+  const double block = density * 1. * 0.5 * 0.5;
+  damped.joints().add_damping_bound(
+      { block, block },
+      std::sqrt(density * young * (1. - poisson)
+                / ((1. + poisson) * (1. - 2. * poisson))),
+      bound);
+  for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+  {
+    const double mass   = plain.mass()[i];
+    const double before = 4. * plain.stability().mass_for(i, 1.) / mass;
+    const double after  = 4. * damped.stability().mass_for(i, 1.) / mass;
+    const double h      = 2. / std::sqrt(after);
+    const double c      = 2. * bound.dashpot[i];
+    EXPECT_EQ(c > 0., nodes.point(i)[2] == 0.5); // of the joint
+    EXPECT_NEAR(h * h * before + 2. * h * c / mass, 4., 1e-9);
   }
 }
