@@ -505,8 +505,12 @@ namespace quoin
     }
     if (!held.empty())
       for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
-        for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
-          balance.held[b][d] = left * held_force(dof_map.bodies(), now, b, d);
+      {
+        balance.held[b] = kept_values(dof_map.bodies(), b, now.held_platens,
+                                      now.held_blocks);
+        for (double &force : balance.held[b])
+          force *= left;
+      }
     find_ratio(applied_force, balance);
   }
 
@@ -628,12 +632,14 @@ namespace quoin
         = body_loads(dof_map.bodies(),
                      { advance.load_time, stage_start + advance.load_time });
     for (unsigned int b = 0; b < drives.size(); ++b)
+    {
+      std::array<double, n_body_motions<dim>> on_body{};
+      if (!held.empty())
+        on_body = kept_values(dof_map.bodies(), b, now.held_platens,
+                              now.held_blocks);
       for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
-        drives[b][d]
-            -= balance.drives[b][d]
-               + (held.empty()
-                      ? 0.
-                      : freed * held_force(dof_map.bodies(), now, b, d));
+        drives[b][d] -= balance.drives[b][d] + freed * on_body[d];
+    }
     dof_map.add_forces(change, slopes.by_advance);
     add_body_forces(dof_map.bodies(), drives, slopes.by_advance);
     slopes.by_advance.compress(dealii::VectorOperation::add);

@@ -282,20 +282,68 @@ namespace quoin
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < dim; ++d)
         now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i][d] : 0.);
-    const auto forces
-        = body_forces(dof_map->bodies(), balance.force, communicator);
-    now.held_blocks.resize(3 * std::size_t(model.rigid_blocks().n_blocks()));
+    auto forces = body_forces(dof_map->bodies(), balance.force, communicator);
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
-      {
-        const RigidBody<dim> &body = dof_map->bodies()[b];
-        const double held
-            = body.given[d] ? 0. : -forces[b][d] - balance.drives[b][d];
-        if (body.platen)
-          now.held_platens.push_back(held);
-        else
-          now.held_blocks[3 * body.rigid_block + d] = held;
-      }
+        forces[b][d] = dof_map->bodies()[b].given[d]
+                           ? 0.
+                           : -forces[b][d] - balance.drives[b][d];
+    keep_values(dof_map->bodies(), forces, model.rigid_blocks().n_blocks(),
+                now.held_platens, now.held_blocks);
+  }
+
+  template <int dim>
+  bool ImplicitSolver<dim>::predict(const State<dim> &state,
+                                    const StepTarget &target,
+                                    Configuration<dim> &configuration)
+  {
+    const ImplicitState &now = state.template get<ImplicitState>();
+    if (now.moved_for <= 0. || now.jumps || target.path > 0.
+        || now.released < 1. || acting.pattern)
+      return false;
+    equilibrium->find_forces(state, configuration, broken, start);
+    correction = 0.;
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (dof_map->is_free(i, d))
+          correction(dof_map->dof(i, d)) = now.moved[std::size_t(dim) * i + d];
+    for (unsigned int b = 0; b < dof_map->bodies().size(); ++b)
+    {
+      const RigidBody<dim> &body = dof_map->bodies()[b];
+      const auto moved = kept_values(dof_map->bodies(), b, now.moved_platens,
+                                     now.moved_blocks);
+      for (unsigned int d = 0; body.counts && d < n_body_motions<dim>; ++d)
+        if (!body.given[d])
+          correction(body.first + d) = moved[d];
+    }
+    correction.compress(dealii::VectorOperation::insert);
+    dof_map->move(correction,
+                  (target.load_time - state.load_time) / now.moved_for,
+                  target.load_time, configuration);
+    return true;
+  }
+
+  template <int dim>
+  void
+  ImplicitSolver<dim>::remember_motion(const Configuration<dim> &configuration,
+                                       State<dim> &state) const
+  {
+    ImplicitState &now = state.template get<ImplicitState>();
+    now.moved_for      = 0.;
+    if (now.jumps || now.released < 1.)
+      return;
+    const Configuration<dim> from = configuration_of(dof_map->bodies(), state);
+    now.moved_for                 = configuration.load_time - from.load_time;
+    now.moved.clear();
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        now.moved.push_back(configuration.nodes[i].u[d] - from.nodes[i].u[d]);
+    BodyValues<dim> turns = configuration.bodies;
+    for (unsigned int b = 0; b < turns.size(); ++b)
+      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
+        turns[b][d] -= from.bodies[b][d];
+    keep_values(dof_map->bodies(), turns, model.rigid_blocks().n_blocks(),
+                now.moved_platens, now.moved_blocks);
   }
 
   template <int dim>
@@ -376,7 +424,7 @@ namespace quoin
       dof_map->move(correction, eta, load_time, configuration);
     };
     last_share = 1.;
-    if (!parameters.line_search || iteration == 0)
+    if (!parameters.line_search || (iteration == 0 && !is_predicted))
       return go(1.);
 
     // Along a correction the relative unbalanced force falls with the slope -1,
@@ -426,7 +474,7 @@ namespace quoin
                             equilibrium->linearise(state, configuration, broken,
                                                    advance, balance, slopes);
                           });
-      if (iteration == 0)
+      if (iteration == 0 && !is_predicted)
         start = balance;
       const double ratio = balance.ratio();
       done.iterations.push_back({ current_step, attempt, iteration,
@@ -469,7 +517,8 @@ namespace quoin
         return Outcome::failed;
 
       double share = 0.;
-      if (!find_correction(target, configuration, iteration == 0, share))
+      if (!find_correction(target, configuration,
+                           iteration == 0 && !is_predicted, share))
         return Outcome::failed;
       correct(state, share, configuration);
       ++iteration;
@@ -528,6 +577,7 @@ namespace quoin
         all.water->begin_step(state);
     for (NodalLoad<dim> &load : all.nodal)
       load.find_crack(state);
+    is_predicted          = predict(state, target, configuration);
     unsigned int n_cracks = 0;
     // Brittle joints break one after the other, each at an equilibrium, and
     // water finds its pressures for the openings of one.
@@ -607,6 +657,7 @@ namespace quoin
         give_up(state);
     }
     const State<dim> before = state;
+    remember_motion(configuration, state);
     commit(configuration, state);
     if (state.template get<ImplicitState>().jumps)
       go_on_jumping(before, state);

@@ -178,11 +178,33 @@ namespace quoin
   }
 
   template <int dim>
-  double held_force(const RigidBodies<dim> &bodies, const ImplicitState &state,
-                    const unsigned int b, const unsigned int d)
+  std::array<double, n_body_motions<dim>>
+  kept_values(const RigidBodies<dim> &bodies, const unsigned int b,
+              const std::vector<double> &platens,
+              const std::vector<double> &blocks)
   {
-    return bodies[b].platen ? state.held_platens[n_body_motions<dim> * b + d]
-                            : state.held_blocks[3 * bodies[b].rigid_block + d];
+    const auto first
+        = bodies[b].platen
+              ? platens.begin() + n_body_motions<dim> * std::ptrdiff_t(b)
+              : blocks.begin() + 3 * std::ptrdiff_t(bodies[b].rigid_block);
+    std::array<double, n_body_motions<dim>> result;
+    std::copy_n(first, result.size(), result.begin());
+    return result;
+  }
+
+  template <int dim>
+  void keep_values(const RigidBodies<dim> &bodies,
+                   const BodyValues<dim> &values, const unsigned int n_blocks,
+                   std::vector<double> &platens, std::vector<double> &blocks)
+  {
+    platens.clear();
+    blocks.assign(3 * std::size_t(n_blocks), 0.);
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b].platen)
+        platens.insert(platens.end(), values[b].begin(), values[b].end());
+      else
+        std::copy(values[b].begin(), values[b].end(),
+                  blocks.begin() + 3 * std::ptrdiff_t(bodies[b].rigid_block));
   }
 
   template <int dim>
@@ -207,8 +229,13 @@ namespace quoin
                                      const AlignedArray<dealii::Tensor<1, 2>> &,
                                      MPI_Comm);
   template BodyValues<2> body_loads(const RigidBodies<2> &, const TimePoint &);
-  template double held_force(const RigidBodies<2> &, const ImplicitState &,
-                             unsigned int, unsigned int);
+  template std::array<double, 3> kept_values(const RigidBodies<2> &,
+                                             unsigned int,
+                                             const std::vector<double> &,
+                                             const std::vector<double> &);
+  template void keep_values(const RigidBodies<2> &, const BodyValues<2> &,
+                            unsigned int, std::vector<double> &,
+                            std::vector<double> &);
   template void add_body_forces(const RigidBodies<2> &, const BodyValues<2> &,
                                 dealii::TrilinosWrappers::MPI::Vector &);
 
@@ -225,8 +252,13 @@ namespace quoin
                                      const AlignedArray<dealii::Tensor<1, 3>> &,
                                      MPI_Comm);
   template BodyValues<3> body_loads(const RigidBodies<3> &, const TimePoint &);
-  template double held_force(const RigidBodies<3> &, const ImplicitState &,
-                             unsigned int, unsigned int);
+  template std::array<double, 6> kept_values(const RigidBodies<3> &,
+                                             unsigned int,
+                                             const std::vector<double> &,
+                                             const std::vector<double> &);
+  template void keep_values(const RigidBodies<3> &, const BodyValues<3> &,
+                            unsigned int, std::vector<double> &,
+                            std::vector<double> &);
   template void add_body_forces(const RigidBodies<3> &, const BodyValues<3> &,
                                 dealii::TrilinosWrappers::MPI::Vector &);
   template const LoadComponent &body_component(const MotionConstraint<3> &,

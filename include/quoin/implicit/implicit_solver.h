@@ -174,6 +174,13 @@ namespace quoin
                     Configuration<dim> &configuration);
     Outcome solve(const State<dim> &state, const StepTarget &target,
                   Configuration<dim> &configuration);
+    /** Moves @p configuration on as in the last load step, and finds the
+        balance at its start; false: there is nothing to predict by. */
+    bool predict(const State<dim> &state, const StepTarget &target,
+                 Configuration<dim> &configuration);
+    /** Keeps the motion from @p state to @p configuration for predict(). */
+    void remember_motion(const Configuration<dim> &configuration,
+                         State<dim> &state) const;
     /** Finds a correction and its share of the advance; false: none. */
     bool find_correction(const StepTarget &target,
                          const Configuration<dim> &configuration, bool is_first,
@@ -213,7 +220,8 @@ namespace quoin
     DofVector residual, correction, advanced;
 
     unsigned int attempt = 0, iteration = 0;
-    double last_share = 1.; /**< last fraction of the line search */
+    bool is_predicted = false; /**< whether iterations began at a prediction */
+    double last_share = 1.;    /**< last fraction of the line search */
     ImplicitRecord done;
     std::uint64_t current_step        = 0;
     const unsigned int assembly_phase = time_shares.phase("assembly"),

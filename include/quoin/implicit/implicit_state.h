@@ -22,6 +22,10 @@ namespace quoin
         nodes, those of each platen and of each rigid block of this rank
         [N, N m]; empty: none. */
     std::vector<double> held, held_platens, held_blocks;
+    /** Motion in the last load step, in the same order [m, rad], and by how
+        much the load time advanced in it [s]; zero: do not predict by it. */
+    std::vector<double> moved, moved_platens, moved_blocks;
+    double moved_for = 0.;
     double released  = 1.; /**< released share of them [-] */
     double step      = 0.; /**< next step, share of the stage [-] */
     double last_step = 0.; /**< last converged load step, share [-] */
@@ -50,9 +54,13 @@ namespace quoin
       visitor.owned_nodes(held, dim);
       visitor.same(held_platens);
       visitor.own(held_blocks, 3, RigidBlockStates::slice_name);
-      visitor.same(dim, released, step, last_step, follows_path, path_step,
-                   path_length, farthest, ahead, jumps, jump_time, drag_step,
-                   drag_time, drag_path, n_drag, jump_loss, before_jump);
+      visitor.owned_nodes(moved, dim);
+      visitor.same(moved_platens);
+      visitor.own(moved_blocks, 3, RigidBlockStates::slice_name);
+      visitor.same(dim, moved_for, released, step, last_step, follows_path,
+                   path_step, path_length, farthest, ahead, jumps, jump_time,
+                   drag_step, drag_time, drag_path, n_drag, jump_loss,
+                   before_jump);
     }
 
     template <typename Archive>

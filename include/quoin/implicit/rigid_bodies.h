@@ -96,11 +96,18 @@ namespace quoin
   BodyValues<dim> body_loads(const RigidBodies<dim> &bodies,
                              const TimePoint &time);
 
-  /** Component @p d of the force that @p state, which has held forces, holds
-      on body @p b [N, N m]. */
+  /** Values of bodies as ImplicitState keeps them, of all @p platens and of
+      the rigid @p blocks of this rank: those of body @p b. */
   template <int dim>
-  double held_force(const RigidBodies<dim> &bodies, const ImplicitState &state,
-                    unsigned int b, unsigned int d);
+  std::array<double, n_body_motions<dim>>
+  kept_values(const RigidBodies<dim> &bodies, unsigned int b,
+              const std::vector<double> &platens,
+              const std::vector<double> &blocks);
+  /** Keeps the @p values of bodies so, of @p n_blocks rigid blocks. */
+  template <int dim>
+  void keep_values(const RigidBodies<dim> &bodies,
+                   const BodyValues<dim> &values, unsigned int n_blocks,
+                   std::vector<double> &platens, std::vector<double> &blocks);
 
   /** Adds forces and moments on bodies to their degrees of freedom, on each
       rank that counts them. */
