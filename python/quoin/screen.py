@@ -7,6 +7,7 @@ import ctypes
 import os
 import random
 import shutil
+import signal
 import subprocess
 
 
@@ -25,9 +26,15 @@ def has_screen():
     return bool(x11.XOpenDisplay(None))
 
 
+def end_with_parent():
+    """In a new process: Linux ends it with the program that has started it."""
+    pr_set_pdeathsig = 1
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGTERM)
+
+
 def open_screen():
     """Starts, if there is no screen, an X server that nobody sees and that ends
-    with this program, however that ends."""
+    with this program, however and whenever that ends."""
     if has_screen():
         return
     if shutil.which("Xvfb") is None:
@@ -37,11 +44,11 @@ def open_screen():
     # any number, for the next one may be that of a server which is ending
     number = f":{random.randint(1000, 50000)}"
     out, into = os.pipe()
-    # -terminate: as its last client goes, that is this program
-    subprocess.run(f"Xvfb {number} -displayfd {into} -terminate "
-                   "-nolisten tcp -screen 0 64x64x24 &", shell=True,
-                   pass_fds=[into], stdout=subprocess.DEVNULL,
-                   stderr=subprocess.DEVNULL)
+    open_screen.server = subprocess.Popen(
+        ["Xvfb", number, "-displayfd", str(into), "-nolisten", "tcp",
+         "-screen", "0", "64x64x24"], pass_fds=[into],
+        preexec_fn=end_with_parent, stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     os.close(into)
     os.environ["DISPLAY"] = number
     with open(out) as pipe:

@@ -30,11 +30,9 @@ namespace quoin
     template <int dim>
     bool joints_may_fail(const Model<dim> &model)
     {
-      if constexpr (dim == 2)
-        return std::any_of(model.joints().laws().begin(),
-                           model.joints().laws().end(), can_fail)
-               || model.parameters().large_displacements;
-      return false;
+      return std::any_of(model.joints().laws().begin(),
+                         model.joints().laws().end(), can_fail)
+             || model.parameters().large_displacements;
     }
   } // namespace
 

@@ -23,6 +23,24 @@ namespace quoin
   {
     /** Critical time steps in which forces may change, see quiet_time(). */
     constexpr double least_quiet_steps = 2000.;
+
+    /** Marks the blocks of the mesh that @p constraint holds or moves: beside
+        them those that they meet have all the mass that matters. Not so where a
+        degree of freedom of a platen follows forces. */
+    template <int dim>
+    void mark_blocks(const NodeMap<dim> &nodes,
+                     const MotionConstraint<dim> &constraint,
+                     std::vector<std::uint8_t> &is_held)
+    {
+      const ConstraintTraits &traits = constraint.traits();
+      if (traits.is_rigid_body()
+          && !(traits.holds_rotation
+               && std::all_of(traits.holds.begin(), traits.holds.end(),
+                              [](const bool holds) { return holds; })))
+        return;
+      for (const unsigned int node : constraint.nodes())
+        is_held[nodes.block_of_node(node)] = 1;
+    }
   } // namespace
 
   template <int dim>
@@ -39,6 +57,10 @@ namespace quoin
     if constexpr (dim == 2)
       if (model.parameters().contact.has_box)
         box = std::make_unique<const ModelBox>(model);
+    std::vector<std::uint8_t> is_held(model.nodes().table().n_blocks(), 0);
+    for (const auto &constraint : all.constraints)
+      mark_blocks(model.nodes(), *constraint, is_held);
+    model.set_held_blocks(is_held);
   }
 
   template <int dim>
@@ -174,8 +196,7 @@ namespace quoin
     const NodeMap<dim> &nodes = model.nodes();
     std::vector<std::uint8_t> is_held(nodes.table().n_blocks(), 0);
     for (const MotionConstraint<dim> *constraint : acting.constraints)
-      for (const unsigned int node : constraint->nodes())
-        is_held[nodes.block_of_node(node)] = 1;
+      mark_blocks(nodes, *constraint, is_held);
     const DashpotBlocks blocks = dashpot_blocks(model, is_held);
     model.joints().set_blocks(blocks);
     if (block_contacts)

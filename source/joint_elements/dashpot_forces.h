@@ -20,12 +20,14 @@ namespace quoin
                                  const dealii::Tensor<1, dim> *velocity,
                                  dealii::Tensor<1, dim> *force)
   {
-    // A point that never failed carries tension, too.
+    // A point that never failed carries tension, too, but of rock joints, which
+    // stiffen.
     const auto bears = [&](const unsigned int p)
     {
       return !gone[p / dim]
-             && (history.state[p] == JointState::intact
-                 || history.normal_traction[p] < 0.);
+             && (history.normal_traction[p] < 0.
+                 || (history.state[p] == JointState::intact
+                     && !stiffens(laws[faces[p / dim].set])));
     };
     const auto stiffness = [&](const unsigned int p)
     {

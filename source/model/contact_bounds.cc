@@ -4,6 +4,7 @@
 #include <quoin/joint_elements/dashpot_bounds.h>
 #include <quoin/model/contact_bounds.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace quoin
@@ -17,6 +18,31 @@ namespace quoin
       masses[nodes.block_of_node(i)] += node_mass[i];
     dealii::Utilities::MPI::sum(masses, nodes.communicator(), masses);
     return masses;
+  }
+
+  template <int dim>
+  std::vector<double> dashpot_masses(const Model<dim> &model)
+  {
+    const NodeMap<dim> &nodes = model.nodes();
+    const auto masses         = block_masses(nodes, model.mass());
+    std::vector<double> heaviest(masses.size(), 0.); // that a block meets
+    for (const auto &face : joint_faces(model.joints()))
+    {
+      const auto &blocks = nodes.faces().joints[face.face].blocks;
+      for (const unsigned int side : { 0, 1 })
+        heaviest[blocks[side]]
+            = std::max(heaviest[blocks[side]], masses[blocks[1 - side]]);
+    }
+    if constexpr (dim == 2)
+      if (model.contacts())
+        heaviest.assign(masses.size(),
+                        *std::max_element(masses.begin(), masses.end()));
+    dealii::Utilities::MPI::max(heaviest, nodes.communicator(), heaviest);
+    std::vector<double> result = masses;
+    for (unsigned int b = 0; b < masses.size(); ++b)
+      if (model.is_held(b))
+        result[b] = std::max(masses[b], heaviest[b]);
+    return result;
   }
 
   std::vector<std::array<double, 2>>
@@ -73,11 +99,13 @@ namespace quoin
 
   template std::vector<double> block_masses(const NodeMap<2> &,
                                             const std::vector<double> &);
+  template std::vector<double> dashpot_masses(const Model<2> &);
   template DashpotBlocks dashpot_blocks(const Model<2> &,
                                         std::vector<std::uint8_t>);
   template std::vector<std::uint8_t> sets_on_blocks(const Model<2> &);
   template std::vector<double> block_masses(const NodeMap<3> &,
                                             const std::vector<double> &);
+  template std::vector<double> dashpot_masses(const Model<3> &);
   template DashpotBlocks dashpot_blocks(const Model<3> &,
                                         std::vector<std::uint8_t>);
   template std::vector<std::uint8_t> sets_on_blocks(const Model<3> &);

@@ -196,6 +196,18 @@ namespace quoin
   }
 
   template <int dim>
+  void Model<dim>::set_held_blocks(const std::vector<std::uint8_t> &is_held)
+  {
+    held_blocks = is_held;
+    MPI_Allreduce(MPI_IN_PLACE, held_blocks.data(), held_blocks.size(),
+                  MPI_UINT8_T, MPI_MAX, node_map.communicator());
+    if (std::any_of(now.joints.begin(), now.joints.end(),
+                    [](const JointSetParameters &set)
+                    { return set.damping.acts(); }))
+      find_stable_step();
+  }
+
+  template <int dim>
   void Model<dim>::find_stable_step()
   {
     if (!node_map.table().is_quadratic)

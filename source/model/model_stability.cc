@@ -101,8 +101,9 @@ namespace quoin
       DampingBound damping;
       damping.dashpot.assign(nodes.n_deformable_nodes(), 0.);
       damping.share.assign(nodes.table().n_blocks(), 0.);
+      const auto masses = dashpot_masses(model);
       for (const ForceOperator<dim> *each : stiff_operators(model))
-        each->add_damping_bound(block_masses(nodes, mass), impedance, damping);
+        each->add_damping_bound(masses, impedance, damping);
       /** omega^2 of undamped steps as short as those with dashpots of twice
           the @p rate, for several pairs of blocks at one node:
           h^2 omega^2 + 4 h rate = 4 there. */

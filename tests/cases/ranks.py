@@ -253,7 +253,7 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "space, excavation": (os.path.join(common.VERIFICATION,
                                                "space_tunnel", "case.prm"),
                                   SPACE_YIELDING),
-            # the same in equilibrium, and joints that slip in part
+            # the same in equilibrium, elastic
             "implicit, space": (os.path.join(common.VERIFICATION,
                                              "space_tunnel", "case.prm"),
                                 ["Solver=implicit",
@@ -346,7 +346,8 @@ RANKS = {"deformable": (2, 4), "divided": (2, 4),
          "contacts, divided": (2, 3, 4)}
 # Those that run on 2 ranks once more: one of each kind of exchange.
 REPEATED = ("deformable", "divided, cracked", "sled", "contacts, divided",
-            "space, joints", "space, free field", "hybrid", "water", "liner",
+            "space, joints", "space, dashpots", "space, platen",
+            "space, free field", "static far field", "hybrid", "water", "liner",
             "bars", "pattern", "implicit, divided", "implicit, space, joints")
 # Those whose blocks move little against their skin; what they show is the sums
 # of forces on both sides, of joints and then of contacts.

@@ -77,7 +77,8 @@ class Build(Shell):
         self.write("bin/apt-get", "#!/bin/sh\n")
         for status, missing in ((0, "xvfb"), (1, "python3-vtk9 xvfb")):
             self.write("bin/python3", f"#!/bin/sh\nexit {status}\n")
-            self.assertEqual(self.call("build").splitlines()[0],
+            python = os.path.join(self.root, "bin/python3")
+            self.assertEqual(self.call("build", PYTHON=python).splitlines()[0],
                              "installing: " + missing)
 
 

@@ -5,7 +5,6 @@
 side by side, whose colours and places are known."""
 import itertools
 import os
-import signal
 import subprocess
 import sys
 import tempfile
@@ -213,6 +212,7 @@ class Pictures(unittest.TestCase):
         # a cut beside the joint has the colours of stone
         seen = Seen(frame_of(joints=joint()), cut=Cut("x<0.99"))
         self.looks(seen, (0.99, 0.2, 0.4), stone)
+        self.assertEqual(seen.handles, [])
         # parts of faces, above a cut across the joint
         seen = Seen(frame_of(joints=joint()), camera=[0., 30.], explode=6.,
                     cut=Cut("z>0.55"), blocks_only=False)
@@ -330,6 +330,18 @@ class Geometry(unittest.TestCase):
         self.assertAlmostEqual(abs(directions[1, 2, 0]), 1.)
 
 
+def is_running(*words):
+    """Whether a program runs whose command line begins with these words."""
+    for process in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{process}/cmdline") as file:
+                if tuple(file.read().split("\0")[:len(words)]) == words:
+                    return True
+        except OSError:
+            pass                        # it has just ended
+    return False
+
+
 class Script(unittest.TestCase):
     """scripts/render of a run of two moments, without a screen."""
 
@@ -415,25 +427,44 @@ class Script(unittest.TestCase):
             file.write("raise ModuleNotFoundError(name='vtkmodules')\n")
         self.refuses("apt-get install python3-vtk9", PYTHONPATH=self.folder)
 
+    def start(self, ends, path=os.environ["PATH"]):
+        """A program that opens a screen, says its number, and goes on."""
+        return subprocess.Popen(
+            [sys.executable, "-c", "import os; from quoin import screen; "
+             "screen.open_screen(); print(os.environ['DISPLAY'], flush=True); "
+             + ends], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL, text=True,
+            env=dict(os.environ, DISPLAY="", PATH=path, PYTHONPATH=os.path.join(
+                synthetic_runs.ROOT, "python")))
+
+    def wait_for(self, *words, running):
+        """Waits until programs with these words run, or none does."""
+        end = time.monotonic() + 20.
+        while is_running(*words) != running and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(is_running(*words), running, words)
+
     def test_the_screen_ends_with_the_program(self):
-        for how in (signal.SIGKILL, None):
-            program = subprocess.Popen(
-                [sys.executable, "-c", "import os; from quoin import screen; "
-                 "screen.open_screen(); print(os.environ['DISPLAY'], flush=True); "
-                 + ("input()" if how else "1/0")], stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                env=dict(os.environ, DISPLAY="", PYTHONPATH=os.path.join(
-                    synthetic_runs.ROOT, "python")))
-            socket = ("/tmp/.X11-unix/X"
-                      + program.stdout.readline().strip()[1:])
-            if how:
-                self.assertTrue(os.path.exists(socket))
-                program.send_signal(how)
+        for is_killed, ends in ((True, "input()"), (False, "1/0")):
+            program = self.start(ends)
+            number = program.stdout.readline().strip()
+            if is_killed:
+                self.assertTrue(is_running("Xvfb", number))
+                program.kill()
             program.communicate()
-            end = time.monotonic() + 10.
-            while os.path.exists(socket) and time.monotonic() < end:
-                time.sleep(0.05)
-            self.assertFalse(os.path.exists(socket), how)
+            self.wait_for("Xvfb", number, running=False)
+
+    def test_the_screen_ends_with_a_program_that_waits_for_it(self):
+        path = os.path.join(self.folder, "Xvfb")
+        with open(path, "w") as file:
+            file.write("#!/bin/sh\nexec sleep 98765\n")
+        os.chmod(path, 0o755)
+        program = self.start("", self.folder + ":" + os.environ["PATH"])
+        self.wait_for("sleep", "98765", running=True)
+        program.kill()
+        program.communicate()
+        self.wait_for("sleep", "98765", running=False)
+        os.remove(path)
 
 
 if __name__ == "__main__":

@@ -20,12 +20,37 @@ namespace quoin
   };
 
   /**
+   * The part of @p times [s], normal and shear, in which springs that stiffen
+   * gain as much as those of now, at the normal traction @p sigma [Pa], would
+   * in all of them: a dashpot stays T times the stiffness of now. Closing at
+   * @p closing [m/s].
+   */
+  template <typename Law>
+  std::array<double, 2> times_of_springs(const Law &law, const double sigma,
+                                         const double closing,
+                                         const std::array<double, 2> &times)
+  {
+    if constexpr (Law::stiffens)
+      if (closing > 0. && times[0] > 0.)
+      {
+        const double pressure = std::max(0., -sigma);
+        const auto [kn, ks]   = law.stiffness_at(-pressure);
+        const double ahead    = pressure + kn * times[0] * closing;
+        return { (law.closure.closure(ahead) - law.closure.closure(pressure))
+                     / closing,
+                 times[1] * ks / law.stiffness_at(-ahead)[1] };
+      }
+    return times;
+  }
+
+  /**
    * Tractions [Pa] of the dashpots of @p point at the opening and slip @p gap
    * [m], which change at @p rate [m/s]: the tractions that the
-   * law has at the gap of @p times [s] later, at these rates, less those of
-   * now. So the law bounds springs and dashpots together: they do not pull
+   * law has at the gap of @p times_of_now [s] later, at these rates, less those
+   * of now. So the law bounds springs and dashpots together: they do not pull
    * beyond its tension, and friction is that of the whole pressure, also while
-   * the point slips, when its friction follows the pressure at the least.
+   * the point slips, when its friction follows the pressure at the least. Laws
+   * that stiffen are asked sooner, see times_of_springs().
    *
    * A joint that never failed breaks by its springs alone: beyond its strength
    * the dashpots rest.
@@ -34,8 +59,10 @@ namespace quoin
   JointVector<dim>
   dashpot_tractions(const Law &law, const PointOf<Law, dim> &point,
                     const JointVector<dim> &gap, const JointVector<dim> &rate,
-                    const std::array<double, 2> &times)
+                    const std::array<double, 2> &times_of_now)
   {
+    const auto times       = times_of_springs(law, point.normal_traction,
+                                              -rate.normal, times_of_now);
     const double slip_time = point.state == JointState::slipping
                                  ? std::max(times[0], times[1])
                                  : times[1];
@@ -44,7 +71,8 @@ namespace quoin
     auto ahead             = point;
     if (!law.update_elastic(ahead, opening, slip))
     {
-      if (point.state == JointState::intact)
+      // Rock joints, which stiffen, have no strength to break.
+      if (point.state == JointState::intact && !Law::stiffens)
         return {};
       law.update_failing(ahead, opening, slip);
     }

@@ -17,6 +17,12 @@ namespace quoin
   std::vector<double> block_masses(const NodeMap<dim> &nodes,
                                    const std::vector<double> &node_mass);
 
+  /** The largest mass that dashpots between each block and those that it meets
+      can have [kg], see PairDashpots: its own, or beside a block that a load of
+      the run holds theirs. Collective. */
+  template <int dim>
+  std::vector<double> dashpot_masses(const Model<dim> &model);
+
   /** P and S wave impedance of each cell group [Pa s/m]; infinite: rigid. */
   std::vector<std::array<double, 2>>
   group_impedances(const ModelProperties &properties, PlaneAssumption plane);

@@ -21,6 +21,7 @@
 #include <quoin/mesh/node_map.h>
 #include <quoin/reinforcement/reinforcement.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -112,6 +113,13 @@ namespace quoin
      */
     void set_properties(const ModelProperties &properties,
                         const ConstructionState<dim> &construction);
+    /** Sets the blocks that loads of the run hold or move (block of the mesh:
+        nonzero), which is for stability(). Collective. */
+    void set_held_blocks(const std::vector<std::uint8_t> &is_held);
+    bool is_held(const unsigned int block) const
+    {
+      return !held_blocks.empty() && held_blocks[block];
+    }
     const NodeMap<dim> &nodes() const
     {
       return node_map;
@@ -194,6 +202,7 @@ namespace quoin
     JointsOf<dim> matched_joints;
     Reinforcement bars;
     std::unique_ptr<BlockContacts> block_contacts;
+    std::vector<std::uint8_t> held_blocks; /**< of the mesh; empty: none */
     std::unique_ptr<StableTimeStep<dim>> stable_step;
   };
 

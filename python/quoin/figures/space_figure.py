@@ -205,6 +205,7 @@ class SpacePicture(Picture):
                 np.quantile(np.abs(v), 0.99) for v in values))
             low = min(np.quantile(v, 0.01) for v in values)
             self.stresses = Normalize(self.factor * low or -1.0, 0.0, clip=True)
+        self.states = {}                 # of joints on the faces of each frame
         self.faces = {frame: self.coloured_faces(frame) for frame in frames}
         places = np.concatenate([
             vtk_to_numpy(faces.GetPoints().GetData()) @ self.page[:2].T
@@ -256,6 +257,7 @@ class SpacePicture(Picture):
             vtk_to_numpy(faces.GetCellData().GetArray("cell")), :3]
         if frame.joints is not None and not self.options.blocks_only:
             states = state_of_faces(faces, frame.joints)
+            self.states[frame] = set(states)
             for state, colour in STATES.items():
                 shade[states == state] = to_rgb(colour)
         add_array(faces.GetCellData(), "colour",
@@ -274,12 +276,9 @@ class SpacePicture(Picture):
                             self.low[1], self.high[1]))
         axes.set_axis_off()
         handles = self.draw_crosses(axes, frame) if self.crosses else []
-        if self.options.blocks_only or frame.joints is None:
-            return handles
-        present = frame.joints.cell_data["state"]
         return handles + [Patch(color=colour, label=joint_states.NAMES[state])
                           for state, colour in STATES.items()
-                          if (present == state).any()]
+                          if state in self.states.get(frame, ())]
 
     def draw_crosses(self, axes, frame):
         """On what is seen, in the directions of the stresses there."""

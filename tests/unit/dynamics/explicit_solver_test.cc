@@ -121,6 +121,64 @@ TEST(ExplicitSolver, EnergyBalanceWhenTheTimeStepChanges)
   }
 }
 
+namespace
+{
+  /** Kinetic energy after 1000 critical steps by that after the first, of a
+      block that is 20 m high on a plate of the thickness @p height [m], whose
+      material is @p plate and which @p load holds. */
+  double growth_on_a_held_plate(const LoadParameters &load, const double height,
+                                const MaterialParameters &plate,
+                                const double stiffness)
+  {
+    MeshData<2> data;
+    add_grid(data, 1, 20, "upper", 0., 1.);
+    add_grid(data, 1, 1, "lower", 0., 0.); // rigid blocks are last
+    for (auto &vertex : data.vertices)
+      vertex[1] = vertex[1] == 0. ? 0. : vertex[1] - 1. + height;
+    add_curve(data, "bottom", 0., 0., 1., 0.);
+    add_curve(data, "joint", 0., height, 1., height);
+    BlockMesh<2> mesh;
+    split_into_blocks(data, {}, mesh);
+    ModelParameters parameters   = two_blocks(stiffness, stiffness);
+    parameters.joints[0].damping = { 1., 1. };
+    parameters.materials         = { plate, material("upper") };
+    TestRun run(mesh, parameters, { load });
+    run.throw_at_random(1e-9);
+    run.begin(stage_with({ load.name }), 1.);
+    run.solver.step(run.state, { true, false });
+    const double start = run.solver.energies().kinetic;
+    run.step(1000);
+    run.solver.step(run.state, { true, false });
+    return run.solver.energies().kinetic / start;
+  }
+} // namespace
+
+// The dashpots are those of the mass of the block, on the nodes of a plate that
+// is lighter by up to 2e4.
+TEST(ExplicitSolver, DashpotsOnAHeldPlateBelowAHeavyBlockAreStable)
+{
+  const LoadParameters base = motion("base", "bottom", "0", "0");
+  for (const double height : { 0.001, 0.01, 0.1 })
+    for (const double stiffness : { 1e8, 1e9, 1e10 })
+      EXPECT_LT(
+          growth_on_a_held_plate(base, height, material("lower"), stiffness),
+          1.)
+          << height << ' ' << stiffness;
+}
+
+// They are those of both masses where a force pushes the plate.
+TEST(ExplicitSolver, DashpotsOnALightPlatenThatAForceMovesAreStable)
+{
+  MaterialParameters plate = material("lower", 25.);
+  plate.rigid              = true;
+  const LoadParameters base
+      = platen("base", "lower", component(velocity, "0"),
+               component(given_force, "0"), component(velocity, "0"));
+  for (const double stiffness : { 1e8, 1e9, 1e10 })
+    EXPECT_LT(growth_on_a_held_plate(base, 0.02, plate, stiffness), 1.)
+        << stiffness;
+}
+
 TEST(ExplicitSolver, EnergyIsWhatTheFormulasSay)
 {
   // The upper block pulled off by rigid platens: only the joint stores.

@@ -133,6 +133,43 @@ TEST(SpaceDashpots, AreNoStrongerThanTheImpedanceOfTheBlocks)
               -5e5 * blocks.area * 0.01, 1e-6);
 }
 
+// Those of rock joints, which have more of springs that are pressed more, are c
+// = T k with the k of now, also where springs ahead would be ten times as
+// stiff.
+TEST(SpaceDashpots, AreThoseOfTheStiffnessOfNow)
+{
+  const BartonBandisLaw law = rock_test::rough();
+  for (const JointState state : { JointState::intact, JointState::slipped })
+    for (const double closing : { 1e-4, 3. })
+    {
+      Damped blocks(law, 2, state);
+      blocks.move(-2e-5 * blocks.n, Vector());
+      const double pressure = law.closure.traction(2e-5);
+      ASSERT_NEAR(blocks.on_high(blocks.force) * blocks.n / blocks.area,
+                  pressure, 1e-6 * pressure);
+      const auto [k_n, k_s] = law.stiffness_at(-pressure);
+      const double time     = 2. * xi * std::sqrt(mass / (k_n * blocks.area));
+      // of the fast one the closure is nearly exhausted T ahead
+      const double ahead = law.closure.traction(2e-5 + time * closing);
+      EXPECT_EQ(law.stiffness_at(-ahead)[0] > 10. * k_n, closing > 0.1);
+      blocks.move(-2e-5 * blocks.n, -closing * blocks.n);
+      const double wanted = closing * critical(k_n, blocks.area, mass);
+      EXPECT_NEAR(blocks.on_high(blocks.viscous) * blocks.n, wanted,
+                  1e-9 * wanted);
+      // and not more along the joint, where friction may bound them
+      const double slow = 1e-6;
+      blocks.move(-2e-5 * blocks.n, -closing * blocks.n + slow * blocks.s);
+      const double along = slow * critical(k_s, blocks.area, mass);
+      EXPECT_LT(blocks.on_high(blocks.viscous) * blocks.s, 0.);
+      EXPECT_GE(blocks.on_high(blocks.viscous) * blocks.s,
+                -along * (1. + 1e-9));
+    }
+  // without pressure there are none
+  Damped open(law, 1);
+  open.move(1e-6 * open.n, -1. * open.n);
+  EXPECT_EQ(open.on_high(open.viscous).norm(), 0.);
+}
+
 TEST(SpaceDashpots, DoNotPull)
 {
   Damped blocks(no_tension(), 2, JointState::slipped);
