@@ -212,9 +212,8 @@ namespace quoin
             area[node][0] += tributary;
         });
     node_map.exchange().add_to_owners(area.data());
-    add_dashpots(node_map, area, contact_laws.sets_on_blocks(joints, node_map),
-                 contact_laws.laws(), contact_laws.dampings(), masses,
-                 impedance, bound);
+    add_dashpots(node_map, area, contact_laws.laws(), contact_laws.dampings(),
+                 masses, impedance, bound);
   }
   void BlockContacts::bind(const ContactState &contacts)
   {

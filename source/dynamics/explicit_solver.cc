@@ -57,10 +57,6 @@ namespace quoin
     if constexpr (dim == 2)
       if (model.parameters().contact.has_box)
         box = std::make_unique<const ModelBox>(model);
-    std::vector<std::uint8_t> is_held(model.nodes().table().n_blocks(), 0);
-    for (const auto &constraint : all.constraints)
-      mark_blocks(model.nodes(), *constraint, is_held);
-    model.set_held_blocks(is_held);
   }
 
   template <int dim>
@@ -197,7 +193,8 @@ namespace quoin
     std::vector<std::uint8_t> is_held(nodes.table().n_blocks(), 0);
     for (const MotionConstraint<dim> *constraint : acting.constraints)
       mark_blocks(nodes, *constraint, is_held);
-    const DashpotBlocks blocks = dashpot_blocks(model, is_held);
+    model.set_held_blocks(is_held);
+    const DashpotBlocks blocks = dashpot_blocks(model);
     model.joints().set_blocks(blocks);
     if (block_contacts)
       block_contacts->set_blocks(blocks);
@@ -215,7 +212,6 @@ namespace quoin
     water.check_constraints(acting.constraints, stage);
     if constexpr (dim == 2)
       rigid_stage.held = find_held_blocks(model, acting.constraints, stage);
-    set_dashpots();
     find_moved_blocks(state);
     hold_removed_blocks(state);
     if (acting.pattern)
@@ -280,6 +276,7 @@ namespace quoin
     if constexpr (dim == 2)
       if (all.water)
         all.water->begin_stage(stage.name, state);
+    set_dashpots();
     scale_masses(stage, state.time, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_gravity(previous, automatic_ramp());
@@ -312,6 +309,7 @@ namespace quoin
         all.water->resume_stage(state);
     collect_operators(nullptr);
     const State<dim> saved = state;
+    set_dashpots();
     scale_masses(stage, state.stage_start, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_gravity(previous, automatic_ramp());

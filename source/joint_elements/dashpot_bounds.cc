@@ -10,7 +10,6 @@ namespace quoin
 {
   template <int dim>
   void add_dashpots(const NodeMap<dim> &nodes, const NodeAreas &area,
-                    const std::vector<std::uint8_t> &acts,
                     const std::vector<JointLaw> &laws,
                     const std::vector<JointDamping> &dampings,
                     const std::vector<double> &masses, const double impedance,
@@ -22,14 +21,14 @@ namespace quoin
       const unsigned int b = nodes.block_of_node(i);
       double dashpot       = 0.;
       for (unsigned int s = 0; s < n_sets; ++s)
-        if (acts[b * n_sets + s])
-        {
-          const auto [kn, ks] = stiffness_bound(laws[s]);
-          const double root   = std::max(dampings[s].normal * std::sqrt(kn),
-                                         dampings[s].shear * std::sqrt(ks));
-          dashpot             = std::max(dashpot,
-                                         2. * root * std::sqrt(masses[b] * area[i][0]));
-        }
+      {
+        const auto [kn, ks] = stiffness_bound(laws[s]);
+        const double root   = std::max(dampings[s].normal * std::sqrt(kn),
+                                       dampings[s].shear * std::sqrt(ks));
+        dashpot             = std::max(
+                        dashpot,
+                        2. * root * std::sqrt(masses[b * n_sets + s] * area[i][0]));
+      }
       // As a spring, between two nodes it counts twice at each.
       bound.dashpot[i] += 2. * std::min(dashpot, impedance * area[i][0]);
     }
@@ -37,20 +36,18 @@ namespace quoin
     {
       double share = 0.;
       for (unsigned int s = 0; s < n_sets; ++s)
-        if (acts[b * n_sets + s])
+        if (masses[b * n_sets + s] > 0.)
           share = std::max({ share, dampings[s].normal, dampings[s].shear });
       bound.share[b] += share;
     }
   }
 
   template void add_dashpots(const NodeMap<2> &, const NodeAreas &,
-                             const std::vector<std::uint8_t> &,
                              const std::vector<JointLaw> &,
                              const std::vector<JointDamping> &,
                              const std::vector<double> &, double,
                              DampingBound &);
   template void add_dashpots(const NodeMap<3> &, const NodeAreas &,
-                             const std::vector<std::uint8_t> &,
                              const std::vector<JointLaw> &,
                              const std::vector<JointDamping> &,
                              const std::vector<double> &, double,

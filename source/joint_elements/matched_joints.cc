@@ -181,8 +181,7 @@ namespace quoin
                                         const double impedance,
                                         DampingBound &bound) const
   {
-    add_dashpots(*node_map, joint_areas(*this, *node_map),
-                 sets_on_blocks(*this, *node_map), all_laws,
+    add_dashpots(*node_map, joint_areas(*this, *node_map), all_laws,
                  dashpots.dampings(), masses, impedance, bound);
   }
 

@@ -25,23 +25,40 @@ namespace quoin
   {
     const NodeMap<dim> &nodes = model.nodes();
     const auto masses         = block_masses(nodes, model.mass());
-    std::vector<double> heaviest(masses.size(), 0.); // that a block meets
-    for (const auto &face : joint_faces(model.joints()))
+    const auto acts           = sets_on_blocks(model);
+    const unsigned int n_sets = model.properties().joints.size();
+    std::vector<double> result(acts.size(), 0.);
+    const auto meet = [&](const unsigned int set, const unsigned int block,
+                          const double other)
     {
-      const auto &blocks = nodes.faces().joints[face.face].blocks;
-      for (const unsigned int side : { 0, 1 })
-        heaviest[blocks[side]]
-            = std::max(heaviest[blocks[side]], masses[blocks[1 - side]]);
-    }
-    if constexpr (dim == 2)
-      if (model.contacts())
-        heaviest.assign(masses.size(),
-                        *std::max_element(masses.begin(), masses.end()));
-    dealii::Utilities::MPI::max(heaviest, nodes.communicator(), heaviest);
-    std::vector<double> result = masses;
+      double &mass = result[block * n_sets + set];
+      mass         = std::max(mass, other);
+    };
     for (unsigned int b = 0; b < masses.size(); ++b)
-      if (model.is_held(b))
-        result[b] = std::max(masses[b], heaviest[b]);
+      for (unsigned int s = 0; s < n_sets; ++s)
+        if (acts[b * n_sets + s] && !model.is_held(b))
+          meet(s, b, masses[b]);
+    // What is held has those of what is not.
+    if (dim == 2 && model.parameters().large_displacements)
+      for (unsigned int s = 0; s < n_sets; ++s)
+      {
+        double heaviest = 0.;
+        for (unsigned int b = 0; b < masses.size(); ++b)
+          heaviest = std::max(heaviest, result[b * n_sets + s]);
+        for (unsigned int b = 0; b < masses.size(); ++b)
+          if (acts[b * n_sets + s] && model.is_held(b))
+            meet(s, b, heaviest);
+      }
+    else
+      for (const auto &face : joint_faces(model.joints()))
+      {
+        const auto &[a, b] = nodes.faces().joints[face.face].blocks;
+        if (model.is_held(a) && !model.is_held(b))
+          meet(face.set, a, masses[b]);
+        if (model.is_held(b) && !model.is_held(a))
+          meet(face.set, b, masses[a]);
+      }
+    dealii::Utilities::MPI::max(result, nodes.communicator(), result);
     return result;
   }
 
@@ -65,22 +82,19 @@ namespace quoin
   }
 
   template <int dim>
-  DashpotBlocks dashpot_blocks(const Model<dim> &model,
-                               std::vector<std::uint8_t> is_held)
+  DashpotBlocks dashpot_blocks(const Model<dim> &model)
   {
     const NodeMap<dim> &nodes = model.nodes();
     DashpotBlocks result;
     result.communicator = nodes.communicator();
-    MPI_Allreduce(MPI_IN_PLACE, is_held.data(), is_held.size(), MPI_UINT8_T,
-                  MPI_MAX, result.communicator);
-    const auto masses = block_masses(nodes, model.mass());
+    const auto masses   = block_masses(nodes, model.mass());
     std::vector<unsigned int> n_ranks(masses.size(), 0);
     for (const BlockPart &part : nodes.blocks().parts)
       ++n_ranks[part.number];
     dealii::Utilities::MPI::sum(n_ranks, result.communicator, n_ranks);
     for (unsigned int b = 0; b < masses.size(); ++b)
     {
-      result.inverse_mass.push_back(is_held[b] ? 0. : 1. / masses[b]);
+      result.inverse_mass.push_back(model.is_held(b) ? 0. : 1. / masses[b]);
       result.is_divided.push_back(n_ranks[b] > 1);
     }
     result.impedance
@@ -100,13 +114,11 @@ namespace quoin
   template std::vector<double> block_masses(const NodeMap<2> &,
                                             const std::vector<double> &);
   template std::vector<double> dashpot_masses(const Model<2> &);
-  template DashpotBlocks dashpot_blocks(const Model<2> &,
-                                        std::vector<std::uint8_t>);
+  template DashpotBlocks dashpot_blocks(const Model<2> &);
   template std::vector<std::uint8_t> sets_on_blocks(const Model<2> &);
   template std::vector<double> block_masses(const NodeMap<3> &,
                                             const std::vector<double> &);
   template std::vector<double> dashpot_masses(const Model<3> &);
-  template DashpotBlocks dashpot_blocks(const Model<3> &,
-                                        std::vector<std::uint8_t>);
+  template DashpotBlocks dashpot_blocks(const Model<3> &);
   template std::vector<std::uint8_t> sets_on_blocks(const Model<3> &);
 } // namespace quoin

@@ -74,11 +74,11 @@ namespace quoin
   /**
    * Adds the dashpots of the sets that act on each block to @p bound, see
    * ForceOperator::add_damping_bound(). @p area: where they may act, of owned
-   * nodes; @p acts: see sets_on_blocks(); @p laws and @p dampings of each set.
+   * nodes; @p laws and @p dampings of each set; @p masses: see
+   * dashpot_masses().
    */
   template <int dim>
   void add_dashpots(const NodeMap<dim> &nodes, const NodeAreas &area,
-                    const std::vector<std::uint8_t> &acts,
                     const std::vector<JointLaw> &laws,
                     const std::vector<JointDamping> &dampings,
                     const std::vector<double> &masses, double impedance,

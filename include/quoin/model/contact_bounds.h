@@ -18,8 +18,9 @@ namespace quoin
                                    const std::vector<double> &node_mass);
 
   /** The largest mass that dashpots between each block and those that it meets
-      can have [kg], see PairDashpots: its own, or beside a block that a load of
-      the run holds theirs. Collective. */
+      can have [kg], see PairDashpots: its own, or if a load holds it theirs.
+      Entry b n + s is that of set s of n at block b of the mesh; 0: the set has
+      none there. Collective. */
   template <int dim>
   std::vector<double> dashpot_masses(const Model<dim> &model);
 
@@ -27,11 +28,9 @@ namespace quoin
   std::vector<std::array<double, 2>>
   group_impedances(const ModelProperties &properties, PlaneAssumption plane);
 
-  /** Data of the blocks for dashpots; @p is_held marks blocks that a load holds
-      or moves, on any rank. Collective. */
+  /** Data of the blocks for dashpots. Collective. */
   template <int dim>
-  DashpotBlocks dashpot_blocks(const Model<dim> &model,
-                               std::vector<std::uint8_t> is_held);
+  DashpotBlocks dashpot_blocks(const Model<dim> &model);
 
   /** sets_on_blocks() of the joints or, if blocks may meet anywhere,
       ContactLaws::sets_on_blocks(). Collective. */

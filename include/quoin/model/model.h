@@ -113,8 +113,8 @@ namespace quoin
      */
     void set_properties(const ModelProperties &properties,
                         const ConstructionState<dim> &construction);
-    /** Sets the blocks that loads of the run hold or move (block of the mesh:
-        nonzero), which is for stability(). Collective. */
+    /** Sets the blocks that loads hold or move in a stage (block of the mesh:
+        nonzero), which is for dashpots and stability(). Collective. */
     void set_held_blocks(const std::vector<std::uint8_t> &is_held);
     bool is_held(const unsigned int block) const
     {
@@ -160,8 +160,8 @@ namespace quoin
     {
       return block_contacts.get();
     }
-    /** Bound of the critical step at the start of the run; none for quadratic
-       meshes, whose corners have no mass. */
+    /** Bound of the critical step with the properties of now; none for
+       quadratic meshes, whose corners have no mass. */
     const StableTimeStep<dim> &stability() const
     {
       return *stable_step;

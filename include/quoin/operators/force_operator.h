@@ -148,8 +148,9 @@ namespace quoin
 
     /**
      * Adds the dashpots of deformable nodes and of blocks, as large as they
-     * may become, with @p masses of the blocks of the mesh [kg] and the largest
-     * wave @p impedance of blocks [Pa s/m]. Collective.
+     * may become, with @p masses of the pairs of blocks (see
+     * dashpot_masses()) and the largest wave @p impedance of blocks
+     * [Pa s/m]. Collective.
      */
     virtual void add_damping_bound(const std::vector<double> & /*masses*/,
                                    double /*impedance*/,
