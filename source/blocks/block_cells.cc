@@ -2,7 +2,8 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/blocks/block_cells.h>
-#include <quoin/blocks/triangle.h>
+#include <quoin/block_elements/tetrahedron.h>
+#include <quoin/block_elements/triangle.h>
 
 namespace quoin
 {

@@ -3,14 +3,14 @@
 
 #include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/blocks/cell_tangent.h>
+#include <quoin/block_elements/cell_strain.h>
+#include <quoin/block_elements/cell_tangent.h>
 #include <quoin/blocks/cell_states.h>
 
 #include <algorithm>
 #include <limits>
 #include <string>
 
-#include "cell_strain.h"
 #include "plastic_strip_kernel.h"
 
 namespace quoin

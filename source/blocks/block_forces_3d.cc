@@ -2,13 +2,13 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/operators/archive.h>
-#include <quoin/blocks/cell_tangent.h>
+#include <quoin/block_elements/cell_tangent.h>
+#include <quoin/block_elements/mixed_cells.h>
 #include <quoin/blocks/cell_states.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "mixed_cells.h"
 #include "tetrahedron_kernel.h"
 
 namespace quoin

@@ -3,9 +3,8 @@
 
 // BlockForces cell by cell, without strips.
 
+#include <quoin/block_elements/cell_strain.h>
 #include <quoin/blocks/cell_states.h>
-
-#include "cell_strain.h"
 
 namespace quoin
 {
@@ -29,24 +28,6 @@ namespace quoin
                        cell.inverse_stretch);
     }
   } // namespace
-
-  std::array<double, 4> cell_gradient(const BlockForcesData<2> &data,
-                                      const NodeRecord<2> *nodes,
-                                      const std::size_t cell, double *area)
-  {
-    if (data.quadratic)
-    {
-      const CellPoint point = cell_point(data, nodes, cell);
-      if (area)
-        *area = point.area;
-      return point.displacement_gradient(nodes);
-    }
-    const auto [a, b, c] = data.cells[cell];
-    const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-    if (area)
-      *area = triangle.area();
-    return triangle.gradient(nodes[a].u, nodes[b].u, nodes[c].u);
-  }
 
   PlasticHistory initial_history(const BlockForces<2> &blocks)
   {
@@ -73,17 +54,6 @@ namespace quoin
       return;
     const auto s = data.initial_stress_of(cell);
     std::copy(s.begin(), s.end(), history.cells[cell].stress);
-  }
-
-  PlasticStep update_cell(const BlockForcesData<2> &data,
-                          const std::size_t cell, const PlaneTensor &strain,
-                          PlasticHistory &history)
-  {
-    PlasticPoint point     = plastic_point(history, cell);
-    const PlasticStep step = data.law_of(cell)->update(
-        point, strain, data.initial_stress_of(cell));
-    set_plastic_point(point, cell, history);
-    return step;
   }
 
   PlasticPoint cell_history(const BlockForces<2> &blocks,

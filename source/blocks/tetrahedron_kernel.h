@@ -6,7 +6,7 @@
 
 #include <quoin/base/lanes.h>
 #include <quoin/base/node_record.h>
-#include <quoin/blocks/tetrahedron.h>
+#include <quoin/block_elements/tetrahedron.h>
 #include <quoin/mesh/mixed_tetrahedra.h>
 
 #include <cstddef>

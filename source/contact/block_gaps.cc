@@ -14,7 +14,7 @@ namespace quoin
   namespace
   {
     /** Approximate set of pairs of edges to be examined. */
-    constexpr double most_pairs = 1e7;
+    constexpr double most_near_pairs = 1e7;
     /** Distance of blocks that touch, by the reach. */
     constexpr double touching = 1e-5;
 
@@ -27,7 +27,7 @@ namespace quoin
         length += edge.length;
       length         = dealii::Utilities::MPI::sum(length, communicator);
       const double n = edges.n_global();
-      return std::min(reach, length / n * most_pairs / n);
+      return std::min(reach, length / n * most_near_pairs / n);
     }
   } // namespace
 

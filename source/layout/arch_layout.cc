@@ -17,12 +17,12 @@ namespace quoin
   namespace
   {
     using Point   = dealii::Point<2>;
-    using Numbers = std::vector<unsigned int>;
+    using Corners = std::vector<unsigned int>;
 
-    class Builder
+    class ArchBuilder
     {
     public:
-      Builder(const ArchParameters &arch, ArchLayout &layout)
+      ArchBuilder(const ArchParameters &arch, ArchLayout &layout)
         : arch(arch), layout(layout), side(0.5 * arch.span + arch.abutment[0])
       {
       }
@@ -54,8 +54,8 @@ namespace quoin
       }
       /** A block on the left and its image on the right, whose corners have
           the opposite order. */
-      void add_both(const ArchBlock::Kind kind, const Numbers &left,
-                    Numbers right)
+      void add_both(const ArchBlock::Kind kind, const Corners &left,
+                    Corners right)
       {
         std::reverse(right.begin(), right.end());
         layout.blocks.push_back({ kind, "", left });
@@ -65,14 +65,14 @@ namespace quoin
       const ArchParameters &arch;
       ArchLayout &layout;
       const double side;
-      Numbers inner, outer; /**< ends of the joints */
+      Corners inner, outer; /**< ends of the joints */
       /** From the left: the extrados, cut at the top of the backing. */
-      Numbers extrados;
+      Corners extrados;
       /** Upper outer corners of abutments, then of backing. */
       std::array<unsigned int, 2> shoulder{};
     };
 
-    void Builder::lay_ring()
+    void ArchBuilder::lay_ring()
     {
       const unsigned int n = arch.n_voussoirs;
       const double radius
@@ -104,12 +104,12 @@ namespace quoin
       extrados = outer;
     }
 
-    void Builder::lay_abutments()
+    void ArchBuilder::lay_abutments()
     {
       const double low = -arch.abutment[1];
       const bool has_step
           = side > layout.points[outer.back()][0] + 1e-9 * arch.abutment[0];
-      std::array<Numbers, 2> corners;
+      std::array<Corners, 2> corners;
       for (unsigned int s = 0; s < 2; ++s)
       {
         const double sign      = s == 0 ? -1. : 1.;
@@ -125,7 +125,7 @@ namespace quoin
       add_both(ArchBlock::abutment, corners[0], corners[1]);
     }
 
-    void Builder::lay_backing()
+    void ArchBuilder::lay_backing()
     {
       // The voussoir on the left whose extrados its top cuts.
       unsigned int k = 0;
@@ -159,11 +159,11 @@ namespace quoin
       const std::size_t n_below
           = std::find(extrados.begin(), extrados.end(), cut[0])
             - extrados.begin() + 1;
-      Numbers left(extrados.begin(), extrados.begin() + n_below);
-      Numbers right(extrados.rbegin(), extrados.rbegin() + n_below);
+      Corners left(extrados.begin(), extrados.begin() + n_below);
+      Corners right(extrados.rbegin(), extrados.rbegin() + n_below);
       for (const unsigned int s : { 0U, 1U })
       {
-        Numbers &corners         = s == 0 ? left : right;
+        Corners &corners         = s == 0 ? left : right;
         const unsigned int below = shoulder[s];
         shoulder[s]              = add(s == 0 ? -side : side, y(cut[s]));
         corners.push_back(shoulder[s]);
@@ -171,14 +171,14 @@ namespace quoin
           corners.push_back(below);
       }
       add_both(ArchBlock::backing, left, right);
-      extrados = Numbers(extrados.begin() + n_below - 1,
+      extrados = Corners(extrados.begin() + n_below - 1,
                          extrados.end() - n_below + 1);
     }
 
-    void Builder::lay_fill()
+    void ArchBuilder::lay_fill()
     {
       const double top = arch.rise + arch.ring + arch.cover;
-      Numbers corners  = extrados;
+      Corners corners  = extrados;
       if (shoulder[1] != corners.back())
         corners.push_back(shoulder[1]);
       corners.push_back(add(side, top));
@@ -194,15 +194,10 @@ namespace quoin
             { ArchBlock::backing, "backing" },
             { ArchBlock::fill, "fill" } };
 
-    std::string with_name(const std::string &kind, const std::string &name)
-    {
-      return name.empty() ? kind : kind + "_" + name;
-    }
-
-    class Writer
+    class ArchWriter
     {
     public:
-      Writer(const ArchParameters &arch, const ArchLayout &layout)
+      ArchWriter(const ArchParameters &arch, const ArchLayout &layout)
         : arch(arch), layout(layout), side(0.5 * arch.span + arch.abutment[0]),
           exact(1e-9 * arch.span)
       {
@@ -243,11 +238,11 @@ namespace quoin
       std::ostringstream text;
     };
 
-    void Writer::find_edges()
+    void ArchWriter::find_edges()
     {
       for (unsigned int b = 0; b < layout.blocks.size(); ++b)
       {
-        const Numbers &corners = layout.blocks[b].corners;
+        const Corners &corners = layout.blocks[b].corners;
         for (std::size_t i = 0; i < corners.size(); ++i)
         {
           const Edge e = edge(corners[i], corners[(i + 1) % corners.size()]);
@@ -257,7 +252,7 @@ namespace quoin
       }
     }
 
-    void Writer::write_points()
+    void ArchWriter::write_points()
     {
       text.precision(15);
       text << "// An arch of " << arch.n_voussoirs << " voussoirs, span "
@@ -276,7 +271,8 @@ namespace quoin
              << "};\n";
     }
 
-    std::string Writer::joint_name(const ArchBlock &a, const ArchBlock &b) const
+    std::string ArchWriter::joint_name(const ArchBlock &a,
+                                       const ArchBlock &b) const
     {
       for (const auto kind : { ArchBlock::fill, ArchBlock::backing })
         if (a.kind == kind || b.kind == kind)
@@ -285,8 +281,9 @@ namespace quoin
     }
 
     /** Name of the outer edge from @p a to @p b of a block. */
-    std::string Writer::outer_name(const ArchBlock &block, const unsigned int a,
-                                   const unsigned int b) const
+    std::string ArchWriter::outer_name(const ArchBlock &block,
+                                       const unsigned int a,
+                                       const unsigned int b) const
     {
       const Point &p = layout.points[a], &q = layout.points[b];
       if (block.kind == ArchBlock::voussoir)
@@ -307,7 +304,7 @@ namespace quoin
       return "";
     }
 
-    void Writer::write_lines()
+    void ArchWriter::write_lines()
     {
       std::map<int, GmshNumbers> lines_of_count;
       for (const auto &[e, line] : lines)
@@ -324,7 +321,7 @@ namespace quoin
         }
         else
         {
-          const Numbers &corners = block.corners;
+          const Corners &corners = block.corners;
           const auto place = std::find(corners.begin(), corners.end(), e[0]);
           const bool is_forward
               = (place + 1 == corners.end() ? corners.front() : place[1])
@@ -337,7 +334,7 @@ namespace quoin
       }
     }
 
-    void Writer::write_surfaces()
+    void ArchWriter::write_surfaces()
     {
       // Voussoirs are quadrangles in rows and columns; those that the top of
       // the backing cuts are meshed as the other blocks are.
@@ -399,7 +396,7 @@ namespace quoin
   ArchLayout lay_arch(const ArchParameters &arch)
   {
     ArchLayout layout;
-    Builder(arch, layout).build();
+    ArchBuilder(arch, layout).build();
     return layout;
   }
 
@@ -419,6 +416,6 @@ namespace quoin
   GmshGeometry arch_geometry(const ArchParameters &arch,
                              const ArchLayout &layout)
   {
-    return Writer(arch, layout).write();
+    return ArchWriter(arch, layout).write();
   }
 } // namespace quoin

@@ -76,7 +76,7 @@ namespace quoin
                                   / arch.fill_element_size);
     }
 
-    void enter(ParameterEntries &entries, ArchParameters &arch)
+    void enter_arch(ParameterEntries &entries, ArchParameters &arch)
     {
       entries.nonnegative(
           "Span", arch.span,
@@ -134,11 +134,11 @@ namespace quoin
 
   void ArchParameters::declare(dealii::ParameterHandler &prm)
   {
-    declare_entries(prm, enter);
+    declare_entries(prm, enter_arch);
   }
 
   ArchParameters ArchParameters::read(const ParameterSection &section)
   {
-    return read_entries(section, enter);
+    return read_entries(section, enter_arch);
   }
 } // namespace quoin

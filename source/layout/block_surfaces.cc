@@ -20,7 +20,7 @@ namespace quoin
 {
   namespace
   {
-    using Point = dealii::Point<3>;
+    using SpacePoint = dealii::Point<3>;
 
     /** A text file of a kind of lines for each first word. */
     class LineReader
@@ -59,9 +59,9 @@ namespace quoin
         return value;
       }
 
-      Point point()
+      SpacePoint point()
       {
-        Point p;
+        SpacePoint p;
         for (unsigned int d = 0; d < 3; ++d)
           p[d] = get<double>("a coordinate");
         return p;
@@ -296,10 +296,11 @@ namespace quoin
     }
 
     /** Lower and upper corner of a box around @p points. */
-    std::pair<Point, Point> box_of(const std::vector<Point> &points)
+    std::pair<SpacePoint, SpacePoint>
+    box_of(const std::vector<SpacePoint> &points)
     {
-      std::pair<Point, Point> box(points.front(), points.front());
-      for (const Point &p : points)
+      std::pair<SpacePoint, SpacePoint> box(points.front(), points.front());
+      for (const SpacePoint &p : points)
         for (unsigned int d = 0; d < 3; ++d)
         {
           box.first[d]  = std::min(box.first[d], p[d]);
@@ -309,8 +310,9 @@ namespace quoin
     }
 
     /** The command for the surfaces at a side of the box around the blocks. */
-    void write_side(const std::pair<Point, Point> &box, const unsigned int side,
-                    const double tolerance, std::ostream &text)
+    void write_side(const std::pair<SpacePoint, SpacePoint> &box,
+                    const unsigned int side, const double tolerance,
+                    std::ostream &text)
     {
       auto [low, high] = box;
       (side % 2 == 0 ? high : low)[side / 2]
@@ -395,7 +397,7 @@ namespace quoin
     FacetSoup soup        = end == ".obj"   ? read_obj(file)
                             : end == ".stl" ? read_stl(file)
                                             : read_3dec_grid(file);
-    for (const Point &p : soup.points)
+    for (const SpacePoint &p : soup.points)
       if (!std::isfinite(p.norm()))
         throw InputError("Mesh '" + file
                          + "': a coordinate is no finite number.");
@@ -417,7 +419,7 @@ namespace quoin
          << element_size << ", Name \"Element size\"} ];\n";
     for (unsigned int v = 0; v < blocks.points.size(); ++v)
     {
-      const Point &p = blocks.points[v];
+      const SpacePoint &p = blocks.points[v];
       text << "Point(" << v + 1 << ") = {" << p[0] << ", " << p[1] << ", "
            << p[2] << ", size};\n";
     }

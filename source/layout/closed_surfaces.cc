@@ -16,14 +16,14 @@ namespace quoin
 {
   namespace
   {
-    using Point  = dealii::Point<3>;
-    using Vector = dealii::Tensor<1, 3>;
-    using Edge   = std::pair<unsigned int, unsigned int>;
+    using SpacePoint  = dealii::Point<3>;
+    using SpaceVector = dealii::Tensor<1, 3>;
+    using Edge        = std::pair<unsigned int, unsigned int>;
 
     void keep_used_points(FacetSoup &soup)
     {
       std::vector<unsigned int> place(soup.points.size(), none);
-      std::vector<Point> points;
+      std::vector<SpacePoint> points;
       for (Facet &facet : soup.facets)
         for (unsigned int &corner : facet.corners)
         {
@@ -42,9 +42,9 @@ namespace quoin
     {
       using Cell = std::array<long, 3>;
       std::map<Cell, std::vector<unsigned int>> cells;
-      std::vector<Point> points;
+      std::vector<SpacePoint> points;
       std::vector<unsigned int> place(soup.points.size(), none);
-      const auto find = [&](const Point &p, const Cell &cell)
+      const auto find = [&](const SpacePoint &p, const Cell &cell)
       {
         Cell near;
         for (near[0] = cell[0] - 1; near[0] <= cell[0] + 1; ++near[0])
@@ -58,7 +58,7 @@ namespace quoin
       };
       for (unsigned int v = 0; v < soup.points.size(); ++v)
       {
-        const Point &p = soup.points[v];
+        const SpacePoint &p = soup.points[v];
         Cell cell;
         for (unsigned int d = 0; d < 3; ++d)
           cell[d] = std::lround(p[d] / tolerance);
@@ -88,10 +88,10 @@ namespace quoin
     }
 
     /** Normal of a loop times twice its area [m^2]. */
-    Vector area_of(const std::vector<Point> &points,
-                   const std::vector<unsigned int> &loop)
+    SpaceVector area_of(const std::vector<SpacePoint> &points,
+                        const std::vector<unsigned int> &loop)
     {
-      Vector area;
+      SpaceVector area;
       for (std::size_t i = 1; i + 1 < loop.size(); ++i)
         area += cross_product_3d(points[loop[i]] - points[loop[0]],
                                  points[loop[i + 1]] - points[loop[0]]);
@@ -105,17 +105,17 @@ namespace quoin
       std::vector<Facet> facets;
       for (const Facet &facet : soup.facets)
       {
-        const auto &corners = facet.corners;
-        const Vector area   = area_of(soup.points, corners);
+        const auto &corners    = facet.corners;
+        const SpaceVector area = area_of(soup.points, corners);
         if (area.norm() <= tolerance * tolerance)
           continue;
-        const Vector normal = area / area.norm();
-        const bool is_plane = std::all_of(
-            corners.begin(), corners.end(),
-            [&](const unsigned int v)
-            {
+        const SpaceVector normal = area / area.norm();
+        const bool is_plane      = std::all_of(
+                 corners.begin(), corners.end(),
+                 [&](const unsigned int v)
+                 {
               return std::abs(normal
-                              * (soup.points[v] - soup.points[corners[0]]))
+                                   * (soup.points[v] - soup.points[corners[0]]))
                      <= tolerance;
             });
         if (is_plane)
@@ -204,7 +204,7 @@ namespace quoin
       {
         const auto text = [&](const unsigned int v)
         {
-          const Point &p = soup.points[v];
+          const SpacePoint &p = soup.points[v];
           return "(" + number_text(p[0]) + ", " + number_text(p[1]) + ", "
                  + number_text(p[2]) + ")";
         };
@@ -247,9 +247,9 @@ namespace quoin
         ++n_shells;
       }
 
-      Vector normal(const unsigned int f) const
+      SpaceVector normal(const unsigned int f) const
       {
-        const Vector area
+        const SpaceVector area
             = area_of(soup.points, soup.facets[facets[f]].corners);
         return (reversed[f] ? -1. : 1.) / area.norm() * area;
       }
@@ -262,7 +262,7 @@ namespace quoin
         {
           if (patch[seed] != none)
             continue;
-          const Vector n                 = normal(seed);
+          const SpaceVector n            = normal(seed);
           std::vector<unsigned int> open = { seed };
           patch[seed]                    = seed;
           while (!open.empty())
@@ -341,7 +341,7 @@ namespace quoin
   {
     keep_used_points(soup);
     double extent = 0.;
-    for (const Point &p : soup.points)
+    for (const SpacePoint &p : soup.points)
       extent = std::max(extent, p.distance(soup.points[0]));
     if (extent > 0.)
       merge_points(soup, 1e-6 * extent);

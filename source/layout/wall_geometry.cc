@@ -17,7 +17,6 @@ namespace quoin
 {
   namespace
   {
-    using Numbers = GmshNumbers;
 
     /** What gmsh is to mesh: a unit, its half, or a cell between columns. */
     struct Piece
@@ -35,10 +34,10 @@ namespace quoin
       return text.str();
     }
 
-    class Writer
+    class WallWriter
     {
     public:
-      Writer(const WallParameters &wall, const WallLayout &layout)
+      WallWriter(const WallParameters &wall, const WallLayout &layout)
         : wall(wall), layout(layout), exact(1e-9 * wall.unit_length)
       {
       }
@@ -132,17 +131,17 @@ namespace quoin
 
       std::vector<std::vector<Piece>> rows;
       std::vector<std::vector<double>> points; /**< x by level */
-      Numbers first_point;                     /**< first point of each level */
+      GmshNumbers first_point;                 /**< first point of each level */
       /** Vertical lines by row: those at x. */
       std::vector<std::map<double, unsigned int>> vertical_lines;
-      std::map<std::string, Numbers> curves, surfaces;
+      std::map<std::string, GmshNumbers> curves, surfaces;
       std::set<std::string> joints; /**< joint curves */
       /** Lines by their length, for the number of elements. */
-      std::map<std::string, Numbers> lines_of_length;
+      std::map<std::string, GmshNumbers> lines_of_length;
       std::ostringstream text;
     };
 
-    void Writer::make_pieces()
+    void WallWriter::make_pieces()
     {
       rows.resize(layout.levels.size() - 1);
       std::vector<double> columns;
@@ -162,7 +161,7 @@ namespace quoin
       }
     }
 
-    void Writer::split_at_columns(const std::vector<double> &columns)
+    void WallWriter::split_at_columns(const std::vector<double> &columns)
     {
       for (std::size_t i = 1; i < columns.size(); ++i)
         if (columns[i] - columns[i - 1] < 0.2 * wall.element_size)
@@ -185,7 +184,7 @@ namespace quoin
       }
     }
 
-    void Writer::make_points()
+    void WallWriter::make_points()
     {
       points.resize(layout.levels.size());
       unsigned int next = 1;
@@ -204,7 +203,7 @@ namespace quoin
       }
     }
 
-    void Writer::write_head()
+    void WallWriter::write_head()
     {
       text.precision(12);
       text << "// A wall, " << layout.length << " m long and " << wall.height()
@@ -216,7 +215,7 @@ namespace quoin
            << ", Name \"Element size\"} ]; // edges are no longer\n\n";
     }
 
-    void Writer::write_points()
+    void WallWriter::write_points()
     {
       for (std::size_t level = 0; level < points.size(); ++level)
         for (std::size_t i = 0; i < points[level].size(); ++i)
@@ -225,7 +224,7 @@ namespace quoin
                << ", 0, size};\n";
     }
 
-    void Writer::write_beds()
+    void WallWriter::write_beds()
     {
       for (std::size_t level = 0; level < points.size(); ++level)
         for (std::size_t i = 0; i + 1 < points[level].size(); ++i)
@@ -250,7 +249,7 @@ namespace quoin
         }
     }
 
-    void Writer::write_vertical_lines()
+    void WallWriter::write_vertical_lines()
     {
       unsigned int next = first_point.back() + points.back().size();
       vertical_lines.resize(rows.size());
@@ -286,7 +285,7 @@ namespace quoin
       }
     }
 
-    void Writer::write_surfaces()
+    void WallWriter::write_surfaces()
     {
       const auto vertical = [&](const unsigned int row, const double x)
       { return vertical_lines[row].lower_bound(x - exact)->second; };
@@ -309,7 +308,7 @@ namespace quoin
         }
     }
 
-    void Writer::write_mesh()
+    void WallWriter::write_mesh()
     {
       if (!wall.structured)
         return;
@@ -325,6 +324,6 @@ namespace quoin
   GmshGeometry wall_geometry(const WallParameters &wall,
                              const WallLayout &layout)
   {
-    return Writer(wall, layout).write();
+    return WallWriter(wall, layout).write();
   }
 } // namespace quoin

@@ -4,18 +4,13 @@
 #ifndef quoin_layout_wall_names_h
 #define quoin_layout_wall_names_h
 
+#include <quoin/layout/gmsh_geometry.h>
 #include <quoin/layout/wall_layout.h>
 
 #include <string>
 
 namespace quoin
 {
-  /** @p kind or kind_NAME. */
-  inline std::string with_name(const std::string &kind, const std::string &name)
-  {
-    return name.empty() ? kind : kind + "_" + name;
-  }
-
   /** The physical surface or volume of @p unit. */
   inline std::string surface_name(const WallUnit &unit)
   {

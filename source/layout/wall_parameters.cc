@@ -162,7 +162,7 @@ namespace quoin
                      "unit with its joint [-]");
     }
 
-    void enter(ParameterEntries &entries, WallParameters &wall)
+    void enter_wall(ParameterEntries &entries, WallParameters &wall)
     {
       entries.choice(
           "Bond", wall.bond,
@@ -343,12 +343,13 @@ namespace quoin
 
   void WallParameters::declare(dealii::ParameterHandler &prm)
   {
-    declare_entries(prm, enter);
+    declare_entries(prm, enter_wall);
   }
 
   WallParameters WallParameters::read(const ParameterSection &top)
   {
-    WallParameters wall = read_entries(ParameterSection(top, "Wall"), enter);
+    WallParameters wall
+        = read_entries(ParameterSection(top, "Wall"), enter_wall);
     if (wall.bond == WallBond::none)
       return wall;
     const unsigned int n_courses = wall.storeys[0].n_courses;

@@ -4,7 +4,7 @@
 #include <quoin/results/field_output.h>
 #include <quoin/base/constants.h>
 #include <quoin/blocks/cell_states.h>
-#include <quoin/blocks/triangle.h>
+#include <quoin/block_elements/triangle.h>
 #include <quoin/contact/law_fields.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/point_values.h>

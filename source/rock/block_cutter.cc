@@ -11,12 +11,12 @@ namespace quoin
 {
   namespace
   {
-    using Point  = dealii::Point<3>;
-    using Vector = dealii::Tensor<1, 3>;
+    using SpacePoint  = dealii::Point<3>;
+    using SpaceVector = dealii::Tensor<1, 3>;
 
-    Vector area_vector(const std::vector<Point> &loop)
+    SpaceVector area_vector(const std::vector<SpacePoint> &loop)
     {
-      Vector sum;
+      SpaceVector sum;
       for (std::size_t i = 1; i + 1 < loop.size(); ++i)
         sum += 0.5
                * dealii::cross_product_3d(loop[i] - loop[0],
@@ -25,13 +25,13 @@ namespace quoin
     }
 
     /** The part of a convex polygon on the upper side of @p plane. */
-    std::vector<Point> clipped(const std::vector<Point> &loop,
-                               const JointPlane &plane)
+    std::vector<SpacePoint> clipped(const std::vector<SpacePoint> &loop,
+                                    const JointPlane &plane)
     {
-      std::vector<Point> part;
+      std::vector<SpacePoint> part;
       for (std::size_t i = 0; i < loop.size(); ++i)
       {
-        const Point &a = loop[i], &b = loop[(i + 1) % loop.size()];
+        const SpacePoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
         const double da = plane.distance(a), db = plane.distance(b);
         if (da >= 0.)
           part.push_back(a);
@@ -42,7 +42,7 @@ namespace quoin
     }
   } // namespace
 
-  BlockCutter::BlockCutter(const Point &low, const Point &high,
+  BlockCutter::BlockCutter(const SpacePoint &low, const SpacePoint &high,
                            const double shortest_edge,
                            const double smallest_block)
     : shortest_edge(shortest_edge), smallest_block(smallest_block),
@@ -86,9 +86,9 @@ namespace quoin
     return std::abs(distance) <= tolerance ? 0 : distance > 0. ? 1 : -1;
   }
 
-  Vector BlockCutter::area(const unsigned int face) const
+  SpaceVector BlockCutter::area(const unsigned int face) const
   {
-    std::vector<Point> loop;
+    std::vector<SpacePoint> loop;
     for (const unsigned int v : all_faces[face].loop)
       loop.push_back(points[v]);
     return area_vector(loop);
@@ -97,11 +97,11 @@ namespace quoin
   double BlockCutter::volume(const unsigned int block) const
   {
     // Pyramids from a vertex of the block, which far origins do not blur.
-    const Point apex = points[all_faces[*blocks[block].begin()].loop[0]];
-    double sum       = 0.;
+    const SpacePoint apex = points[all_faces[*blocks[block].begin()].loop[0]];
+    double sum            = 0.;
     for (const unsigned int f : blocks[block])
     {
-      std::vector<Point> loop;
+      std::vector<SpacePoint> loop;
       for (const unsigned int v : all_faces[f].loop)
         loop.push_back(points[v]);
       sum += std::abs(area_vector(loop) * (loop[0] - apex)) / 3.;
@@ -113,12 +113,12 @@ namespace quoin
                                                  const JointPlane &plane) const
   {
     // With an apex in the plane, the face that the cut makes adds nothing.
-    Point apex = points[all_faces[*blocks[block].begin()].loop[0]];
+    SpacePoint apex = points[all_faces[*blocks[block].begin()].loop[0]];
     apex -= plane.distance(apex) * plane.normal;
     double above = 0.;
     for (const unsigned int f : blocks[block])
     {
-      std::vector<Point> loop;
+      std::vector<SpacePoint> loop;
       for (const unsigned int v : all_faces[f].loop)
         loop.push_back(points[v]);
       loop = clipped(loop, plane);
@@ -135,16 +135,16 @@ namespace quoin
     for (const unsigned int f : blocks[block])
     {
       const auto &loop = all_faces[f].loop;
-      std::vector<Point> in_plane;
+      std::vector<SpacePoint> in_plane;
       bool has_below = false, has_above = false;
       for (std::size_t i = 0; i < loop.size(); ++i)
       {
-        const Point &a = points[loop[i]];
-        const Point &b = points[loop[(i + 1) % loop.size()]];
-        const int at_a = side(loop[i], plane);
-        const int at_b = side(loop[(i + 1) % loop.size()], plane);
-        has_below      = has_below || at_a < 0;
-        has_above      = has_above || at_a > 0;
+        const SpacePoint &a = points[loop[i]];
+        const SpacePoint &b = points[loop[(i + 1) % loop.size()]];
+        const int at_a      = side(loop[i], plane);
+        const int at_b      = side(loop[(i + 1) % loop.size()], plane);
+        has_below           = has_below || at_a < 0;
+        has_above           = has_above || at_a > 0;
         if (at_a == 0)
           in_plane.push_back(a);
         if (at_a * at_b >= 0)

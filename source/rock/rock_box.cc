@@ -15,8 +15,8 @@ namespace quoin
 {
   namespace
   {
-    using Point  = dealii::Point<3>;
-    using Vector = dealii::Tensor<1, 3>;
+    using SpacePoint  = dealii::Point<3>;
+    using SpaceVector = dealii::Tensor<1, 3>;
 
     /** More planes than that make no blocks that could be computed. */
     constexpr unsigned int most_planes = 100000;
@@ -34,9 +34,9 @@ namespace quoin
     std::vector<JointPlane> draw_planes(const RockBoxParameters &rock,
                                         const SpaceJointSet &set)
     {
-      const Vector mean   = set.mean_normal();
-      const Point centre  = rock.low + 0.5 * (rock.high - rock.low);
-      const double middle = mean * (centre - set.origin);
+      const SpaceVector mean  = set.mean_normal();
+      const SpacePoint centre = rock.low + 0.5 * (rock.high - rock.low);
+      const double middle     = mean * (centre - set.origin);
       // Scattered planes turn about points on the normal through the centre.
       double reach = 0.5 * rock.low.distance(rock.high);
       if (set.concentration == 0.)
@@ -66,11 +66,12 @@ namespace quoin
         if (std::abs(s - middle) >= reach)
           continue;
         RandomStream random(rock.seed, set.name + " direction", k);
-        const Vector normal = set.concentration > 0.
-                                  ? draw_fisher(mean, set.concentration, random)
-                                  : mean;
-        const Point pivot   = centre + (s - middle) * mean;
-        planes.push_back({ normal, normal * (pivot - Point()) });
+        const SpaceVector normal
+            = set.concentration > 0.
+                  ? draw_fisher(mean, set.concentration, random)
+                  : mean;
+        const SpacePoint pivot = centre + (s - middle) * mean;
+        planes.push_back({ normal, normal * (pivot - SpacePoint()) });
       }
       return planes;
     }
@@ -102,10 +103,10 @@ namespace quoin
 
     /** Whether the segment a-b passes through a convex face. */
     bool crosses(const BlockCutter &blocks, const BlockCutter::Face &face,
-                 const Point &a, const Point &b)
+                 const SpacePoint &a, const SpacePoint &b)
     {
       const auto &x = blocks.vertices();
-      Vector normal;
+      SpaceVector normal;
       const auto &loop = face.loop;
       for (std::size_t i = 1; i + 1 < loop.size(); ++i)
         normal += dealii::cross_product_3d(x[loop[i]] - x[loop[0]],
@@ -114,10 +115,11 @@ namespace quoin
       const double db = normal * (b - x[loop[0]]);
       if ((da < 0.) == (db < 0.))
         return false;
-      const Point p = a + da / (da - db) * (b - a);
+      const SpacePoint p = a + da / (da - db) * (b - a);
       for (std::size_t i = 0; i < loop.size(); ++i)
       {
-        const Point &from = x[loop[i]], &to = x[loop[(i + 1) % loop.size()]];
+        const SpacePoint &from = x[loop[i]],
+                         &to   = x[loop[(i + 1) % loop.size()]];
         if (dealii::cross_product_3d(to - from, p - from) * normal < 0.)
           return false;
       }
@@ -125,19 +127,19 @@ namespace quoin
     }
   } // namespace
 
-  Vector plane_normal(const double dip, const double dip_direction)
+  SpaceVector plane_normal(const double dip, const double dip_direction)
   {
     const double d = dip * constants::degree;
     const double a = dip_direction * constants::degree;
-    Vector normal;
+    SpaceVector normal;
     normal[0] = std::sin(d) * std::sin(a);
     normal[1] = std::sin(d) * std::cos(a);
     normal[2] = std::cos(d);
     return normal;
   }
 
-  Vector draw_fisher(const Vector &mean, const double kappa,
-                     RandomStream &random)
+  SpaceVector draw_fisher(const SpaceVector &mean, const double kappa,
+                          RandomStream &random)
   {
     const double u      = random.uniform();
     const double cosine = std::clamp(
@@ -148,15 +150,15 @@ namespace quoin
     for (unsigned int d = 1; d < 3; ++d)
       if (std::abs(mean[d]) < std::abs(mean[least]))
         least = d;
-    Vector axis;
-    axis[least] = 1.;
-    Vector e    = dealii::cross_product_3d(mean, axis);
+    SpaceVector axis;
+    axis[least]   = 1.;
+    SpaceVector e = dealii::cross_product_3d(mean, axis);
     e /= e.norm();
-    const Vector f = dealii::cross_product_3d(mean, e);
+    const SpaceVector f = dealii::cross_product_3d(mean, e);
     return cosine * mean + sine * (std::cos(angle) * e + std::sin(angle) * f);
   }
 
-  Vector SpaceJointSet::mean_normal() const
+  SpaceVector SpaceJointSet::mean_normal() const
   {
     return plane_normal(dip, dip_direction);
   }
@@ -179,7 +181,7 @@ namespace quoin
   }
 
   double RockBox::joint_frequency(const unsigned int set,
-                                  const Vector &direction) const
+                                  const SpaceVector &direction) const
   {
     double sum = 0.;
     for (unsigned int f = 0; f < blocks.faces().size(); ++f)
@@ -188,8 +190,8 @@ namespace quoin
     return sum / box_volume();
   }
 
-  unsigned int RockBox::n_crossings(const unsigned int set, const Point &a,
-                                    const Point &b) const
+  unsigned int RockBox::n_crossings(const unsigned int set, const SpacePoint &a,
+                                    const SpacePoint &b) const
   {
     return std::count_if(blocks.faces().begin(), blocks.faces().end(),
                          [&](const BlockCutter::Face &face) {
@@ -262,7 +264,8 @@ namespace quoin
            << ",\n";
       for (const JointPlane &plane : box.planes[s])
       {
-        const Vector n   = plane.normal[2] < 0. ? -plane.normal : plane.normal;
+        const SpaceVector n
+            = plane.normal[2] < 0. ? -plane.normal : plane.normal;
         double direction = std::atan2(n[0], n[1]) / constants::degree;
         if (direction < 0.)
           direction += 360.;

@@ -15,7 +15,7 @@ namespace quoin
 {
   namespace
   {
-    using Point = dealii::Point<3>;
+    using SpacePoint = dealii::Point<3>;
 
     Distribution read_spacing(const ParameterSection &section)
     {
@@ -62,7 +62,7 @@ namespace quoin
       std::array<double, 3> origin{};
       entries.numbers("Origin", origin,
                       "Point x, y, z on the first plane of the set [m]");
-      set.origin = Point(origin[0], origin[1], origin[2]);
+      set.origin = SpacePoint(origin[0], origin[1], origin[2]);
     }
 
     void check_box(const ParameterSection &section,
@@ -92,8 +92,8 @@ namespace quoin
       entries.numbers("Highest corner", high,
                       "Corner of largest x, y, z of the box; the same as "
                       "'Lowest corner': no box is generated [m]");
-      rock.low  = Point(low[0], low[1], low[2]);
-      rock.high = Point(high[0], high[1], high[2]);
+      rock.low  = SpacePoint(low[0], low[1], low[2]);
+      rock.high = SpacePoint(high[0], high[1], high[2]);
       if (!entries.reads_if(rock.is_there()))
         return;
       entries.list("Sides", rock.sides,

@@ -14,8 +14,7 @@ namespace quoin
 {
   namespace
   {
-    using Point   = dealii::Point<2>;
-    using Numbers = GmshNumbers;
+    using Point = dealii::Point<2>;
     class Writer
     {
     public:
@@ -60,10 +59,10 @@ namespace quoin
       const RockParameters &rock;
       const RockLayout &layout;
       const JointNetwork &network;
-      std::map<std::string, Numbers> curves, surfaces;
+      std::map<std::string, GmshNumbers> curves, surfaces;
       std::vector<std::string> joint_curves;
       std::vector<bool> has_point;
-      Numbers refined; /**< lines from which sizes grow */
+      GmshNumbers refined; /**< lines from which sizes grow */
       std::ostringstream text;
     };
 
@@ -192,7 +191,7 @@ namespace quoin
       const auto &faces   = layout.faces->faces();
       const auto add_loop = [&](const BlockFaces::Loop &loop)
       {
-        Numbers lines;
+        GmshNumbers lines;
         for (const unsigned int h : loop)
           lines.push_back(h % 2 == 0 ? int(h / 2 + 1) : -int(h / 2 + 1));
         text << "Curve Loop(" << next_loop << ") = " << braces(lines) << ";\n";
@@ -202,7 +201,7 @@ namespace quoin
       {
         if (!is_block(f))
           continue;
-        Numbers loops = { add_loop(faces[f].outer) };
+        GmshNumbers loops = { add_loop(faces[f].outer) };
         for (const auto &loop : faces[f].inner)
           loops.push_back(add_loop(loop));
         text << "Plane Surface(" << f + 1 << ") = " << braces(loops) << ";\n";

@@ -18,6 +18,11 @@ MASONRY = os.path.join(ROOT, "parameter_files", "masonry")
 SLED = os.path.join(ROOT, "tests", "cases", "sled.prm")
 DIG = os.path.join(ROOT, "tests", "cases", "dig.prm")
 SLIDE = os.path.join(ROOT, "tests", "cases", "slide.prm")
+# Blocks placed, excavated and placed again, and the same in motion.
+FILL = os.path.join(VERIFICATION, "fill", "case.prm")
+SHORT_FILL = ["Stages/%s/%s" % (stage, value)
+              for stage in ("base", "fill", "half", "gone", "concrete")
+              for value in ("End=time", "Duration=0.02")]
 
 MPI_ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",

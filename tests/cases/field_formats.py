@@ -27,7 +27,6 @@ from common import Failure  # noqa: E402
 sys.path.insert(0, os.path.join(common.ROOT, "python"))
 from quoin import results, vtu  # noqa: E402
 
-FILL = os.path.join(common.VERIFICATION, "fill", "case.prm")
 CAVITY = os.path.join(common.VERIFICATION, "cavity_step", "case.prm")
 SPACE = os.path.join(common.VERIFICATION, "space_waves", "s.prm")
 INCLINE = os.path.join(common.VERIFICATION, "space_incline", "case.prm")
@@ -39,7 +38,8 @@ CASES = {
                         ("blocks", "joints", "contacts")),
     "sled on 3 ranks": (common.SLED, ["Output/Field interval=5e-3"], 3,
                         ("blocks", "joints", "contacts")),
-    "fill on 2 ranks": (FILL, ["Output/Field interval=5e-2"], 2,
+    "fill on 2 ranks": (common.FILL,
+                        common.SHORT_FILL + ["Output/Field interval=5e-3"], 2,
                         ("blocks", "joints")),
     "cavity": (CAVITY, ["Boundary elements/Duration=0.05",
                         "Sampled field/Spacing=2",
@@ -267,8 +267,9 @@ def body():
     if not options.only:
         folder = common.begin(options, "field_formats")
     start = time.monotonic()
-    found = [run_case(options, name) for name in CASES
-             if name.startswith(options.only or "")]
+    found = common.in_parallel(
+        lambda name: run_case(options, name),
+        [name for name in CASES if name.startswith(options.only or "")])
     n, worst = sum(one for one, _ in found), max(one for _, one in found)
     if not options.only:
         common.write_result(

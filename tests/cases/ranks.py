@@ -38,13 +38,9 @@ PATCH_TEST = os.path.join(common.VERIFICATION, "patch_test", "case.prm")
 AFTER_SWITCH = os.path.join(common.VERIFICATION, "at_rest_after_switch",
                             "static_dashpots.prm")
 UNSETTLED = ["Stages/settle/Static ratio=0.1"]
-# Blocks placed, excavated and placed again, in motion.
-FILL = os.path.join(common.VERIFICATION, "fill", "case.prm")
-SHORT = ["Stages/%s/%s" % (stage, value)
-         for stage in ("base", "fill", "half", "gone", "concrete")
-         for value in ("End=time", "Duration=0.02")]
 # Results counted from a stage in which a block has just been placed.
-SHORT.append("Stages/fill/Reset=displacements, slips, joint states")
+SHORT = common.SHORT_FILL + [
+    "Stages/fill/Reset=displacements, slips, joint states"]
 # The first displacements of a shear wall, joints opening.
 WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
@@ -179,7 +175,7 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                        ["Boundary elements/Element length=0.5",
                         "Boundary elements/Passivity frequencies=0"]),
             "static far field": (AFTER_SWITCH, UNSETTLED),
-            "construction": (FILL, SHORT),
+            "construction": (common.FILL, SHORT),
             # divided blocks, one of them excavated and placed again
             "construction, divided": (common.DIG, []),
             # general contacts, both blocks in several ranks
@@ -216,7 +212,8 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             # joints between them that slip, damped
             "space, joints": (os.path.join(common.VERIFICATION,
                                            "space_incline", "case.prm"),
-                              ["Stages/slide/Damping=Rayleigh",
+                              ["Stages/slide/Duration=0.15",
+                               "Stages/slide/Damping=Rayleigh",
                                "Stages/slide/Rayleigh stiffness "
                                "coefficient=1e-6",
                                "Output/Field interval=0.1"]),
@@ -271,8 +268,9 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "mixed": (os.path.join(common.VERIFICATION, "space_tunnel",
                                    "case.prm"),
                       SPACE_YIELDING + ["Mesh/Tetrahedra=mixed",
-                                        "Stages/excavate/Duration=1e-3",
-                                        "Stages/excavate/Release duration=5e-4"]),
+                                        "Stages/excavate/Duration=5e-4",
+                                        "Stages/excavate/Release duration=3e-4",
+                                        "Histories/Interval=5e-5"]),
             "implicit, mixed": (os.path.join(common.VERIFICATION,
                                              "space_yield", "case.prm"),
                                 ["Mesh/Tetrahedra=mixed", "Solver=implicit",

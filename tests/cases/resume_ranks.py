@@ -104,7 +104,7 @@ CASES = {
     "implicit, mixed": of_ranks("implicit, mixed", UP),
     "implicit, quadratic": of_ranks("implicit, divided, cracked", UP,
                                     ["Mesh/Triangles=quadratic"]),
-    "implicit, construction": (on_ranks.FILL,
+    "implicit, construction": (common.FILL,
                                ["Solver=implicit", "Implicit/First step=0.05",
                                 "Implicit/Largest step=0.05",
                                 "Implicit/Force ratio=1e-11"], UP),

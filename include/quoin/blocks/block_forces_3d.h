@@ -5,76 +5,9 @@
 #define quoin_blocks_block_forces_3d_h
 
 #include <quoin/blocks/block_forces.h>
-#include <quoin/blocks/tetrahedron.h>
-#include <quoin/materials/space_mohr_coulomb.h>
-#include <quoin/mesh/mixed_tetrahedra.h>
 
 namespace quoin
 {
-  /** Mesh data of the block kernel: tetrahedra. */
-  template <>
-  struct BlockForcesData<3>
-  {
-    /** Nodes of each cell, block-major; det of Tetrahedron is positive. */
-    std::vector<std::array<unsigned int, 4>> cells;
-    std::vector<unsigned int> block_first_cell; /**< n_blocks + 1 entries */
-
-    /** First node of each block, n_blocks + 1 entries, without the nodes that
-        several blocks or tiles share. */
-    std::vector<unsigned int> block_first_node;
-
-    std::vector<SpaceStiffness> stiffness; /**< the different ones */
-
-    /** Index into stiffness of each cell; empty if there is only one. */
-    std::vector<unsigned int> cell_stiffness;
-
-    /** Yield law of cells of each stiffness, if any; empty: no cell yields. */
-    std::vector<std::optional<SpaceMohrCoulomb>> laws;
-
-    /** Stress of each cell at zero strain [Pa]; it turns with the cell.
-        Empty: none. */
-    AlignedArray<SpaceTensor> initial_stress;
-
-    /** Whether each eight cells are one mixed tetrahedron, whose mean stress,
-        less the own initial one, is the same in all of them; of equal
-        stiffness and law. */
-    bool mixed = false;
-
-    /** Consecutive cells that are computed together. */
-    unsigned int n_joined_cells() const
-    {
-      return mixed ? parts_of_mixed : 1;
-    }
-
-    const SpaceStiffness &stiffness_of(const unsigned int cell) const
-    {
-      return stiffness[cell_stiffness.empty() ? 0 : cell_stiffness[cell]];
-    }
-
-    /** Stress of a cell without strain [Pa]. */
-    SpaceTensor initial_stress_of(const unsigned int cell) const
-    {
-      return initial_stress.empty() ? SpaceTensor{} : initial_stress[cell];
-    }
-
-    /** Whether any cell has a yield law. */
-    bool is_plastic() const
-    {
-      return std::any_of(laws.begin(), laws.end(),
-                         [](const auto &law) { return law.has_value(); });
-    }
-
-    /** Yield law of cells of one stiffness; null: elastic. */
-    const SpaceMohrCoulomb *law(const unsigned int s) const
-    {
-      return laws.empty() || !laws[s] ? nullptr : &*laws[s];
-    }
-    const SpaceMohrCoulomb *law_of(const unsigned int cell) const
-    {
-      return law(cell_stiffness.empty() ? 0 : cell_stiffness[cell]);
-    }
-  };
-
   /**
    * Internal forces of blocks of tetrahedra (tetrahedron.h has the element)
    * that undergo any rotation, linear elastic or elastoplastic; otherwise as

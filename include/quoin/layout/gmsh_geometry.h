@@ -23,6 +23,12 @@ namespace quoin
   /** {1, 2, 3}, in lines of at most 80 characters. */
   std::string braces(const GmshNumbers &numbers);
 
+  /** @p kind or kind_NAME. */
+  inline std::string with_name(const std::string &kind, const std::string &name)
+  {
+    return name.empty() ? kind : kind + "_" + name;
+  }
+
   /** The lines that name the physical surfaces and curves. */
   std::string physical_names(const std::map<std::string, GmshNumbers> &surfaces,
                              const std::map<std::string, GmshNumbers> &curves);

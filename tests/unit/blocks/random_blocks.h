@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_tests_unit_dynamics_random_blocks_h
-#define quoin_tests_unit_dynamics_random_blocks_h
+#ifndef quoin_tests_unit_blocks_random_blocks_h
+#define quoin_tests_unit_blocks_random_blocks_h
 
 #include <quoin/base/node_record.h>
 #include <quoin/blocks/block_forces.h>

@@ -5,6 +5,7 @@
 #define quoin_tests_tetrahedron_blocks_h
 
 #include <quoin/base/eigen_core.h>
+#include <quoin/block_elements/tetrahedron.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/blocks/node_update.h>
 #include <quoin/blocks/stable_time_step.h>

@@ -5,7 +5,7 @@
 
 #include "tetrahedron_blocks.h"
 
-#include <quoin/blocks/cell_tangent.h>
+#include <quoin/block_elements/cell_tangent.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #ifndef quoin_tests_materials_yielding_sample_h
 #define quoin_tests_materials_yielding_sample_h
 
-#include <quoin/blocks/triangle.h>
+#include <quoin/block_elements/triangle.h>
 #include <quoin/materials/mohr_coulomb.h>
 
 #include <array>

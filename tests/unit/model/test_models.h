@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_tests_unit_dynamics_test_models_h
-#define quoin_tests_unit_dynamics_test_models_h
+#ifndef quoin_tests_unit_model_test_models_h
+#define quoin_tests_unit_model_test_models_h
 
 #include "../mesh/test_meshes.h"
 #include "../mesh/test_nodes.h"

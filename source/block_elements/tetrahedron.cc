@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/blocks/tetrahedron.h>
+#include <quoin/block_elements/tetrahedron.h>
 
 #include <Eigen/Dense>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_blocks_triangle_h
-#define quoin_blocks_triangle_h
+#ifndef quoin_block_elements_triangle_h
+#define quoin_block_elements_triangle_h
 
 #include <quoin/base/node_record.h>
 #include <quoin/materials/corotated_strain.h>

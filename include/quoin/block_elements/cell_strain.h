@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_source_blocks_cell_strain_h
-#define quoin_source_blocks_cell_strain_h
+#ifndef quoin_block_elements_cell_strain_h
+#define quoin_block_elements_cell_strain_h
 
-#include <quoin/blocks/block_forces_3d.h>
+#include <quoin/block_elements/block_forces_data.h>
+#include <quoin/block_elements/tetrahedron.h>
+#include <quoin/block_elements/triangle.h>
+#include <quoin/materials/plastic_history.h>
 
 // Geometry and strain of single cells.
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_blocks_cell_tangent_h
-#define quoin_blocks_cell_tangent_h
+#ifndef quoin_block_elements_cell_tangent_h
+#define quoin_block_elements_cell_tangent_h
 
-#include <quoin/blocks/block_forces.h>
-#include <quoin/blocks/block_forces_3d.h>
+#include <quoin/block_elements/block_forces_data.h>
+#include <quoin/materials/plastic_history.h>
 
 // Derivatives of the forces of cells, for implicit solvers.
 

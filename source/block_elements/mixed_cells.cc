@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "mixed_cells.h"
+#include <quoin/block_elements/mixed_cells.h>
 
 namespace quoin
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_blocks_triangle_tangent_h
-#define quoin_blocks_triangle_tangent_h
+#ifndef quoin_block_elements_triangle_tangent_h
+#define quoin_block_elements_triangle_tangent_h
 
-#include <quoin/blocks/triangle.h>
+#include <quoin/block_elements/triangle.h>
 
 #include <array>
 

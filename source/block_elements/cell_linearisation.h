@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_source_blocks_cell_linearisation_h
-#define quoin_source_blocks_cell_linearisation_h
+#ifndef quoin_source_block_elements_cell_linearisation_h
+#define quoin_source_block_elements_cell_linearisation_h
 
-#include <quoin/blocks/cell_tangent.h>
-
-#include "cell_strain.h"
+#include <quoin/block_elements/cell_strain.h>
+#include <quoin/block_elements/cell_tangent.h>
 
 // What the derivatives of single tetrahedra and of mixed ones share.
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_blocks_tetrahedron_h
-#define quoin_blocks_tetrahedron_h
+#ifndef quoin_block_elements_tetrahedron_h
+#define quoin_block_elements_tetrahedron_h
 
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/materials/space_strain.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_source_blocks_mixed_cells_h
-#define quoin_source_blocks_mixed_cells_h
+#ifndef quoin_block_elements_mixed_cells_h
+#define quoin_block_elements_mixed_cells_h
 
-#include "cell_strain.h"
+#include <quoin/block_elements/cell_strain.h>
 
 // The eight cells of a mixed tetrahedron, see theory.md, "Mixed tetrahedra".
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "tetrahedron_blocks.h"
+#include "../blocks/tetrahedron_blocks.h"
 
-#include <quoin/blocks/cell_tangent.h>
+#include <quoin/block_elements/cell_tangent.h>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "cell_linearisation.h"
-#include "mixed_cells.h"
+#include <quoin/block_elements/mixed_cells.h>
 
 #include <algorithm>
+
+#include "cell_linearisation.h"
 
 namespace quoin
 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_tests_unit_dynamics_tangent_checks_h
-#define quoin_tests_unit_dynamics_tangent_checks_h
+#ifndef quoin_tests_unit_block_elements_tangent_checks_h
+#define quoin_tests_unit_block_elements_tangent_checks_h
 
-#include "random_blocks.h"
+#include "../blocks/random_blocks.h"
 
-#include <quoin/blocks/cell_tangent.h>
+#include <quoin/block_elements/cell_tangent.h>
 #include <quoin/blocks/block_forces.h>
 
 #include <algorithm>

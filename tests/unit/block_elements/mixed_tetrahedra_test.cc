@@ -3,10 +3,10 @@
 
 // Forces, energy, flow and derivatives of mixed tetrahedra.
 
-#include "tetrahedron_blocks.h"
+#include "../blocks/tetrahedron_blocks.h"
 
 #include <quoin/base/constants.h>
-#include <quoin/blocks/cell_tangent.h>
+#include <quoin/block_elements/cell_tangent.h>
 #include <quoin/blocks/cell_states.h>
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "random_blocks.h"
+#include "../blocks/random_blocks.h"
 
-#include <quoin/blocks/triangle.h>
+#include <quoin/block_elements/triangle.h>
 #include <quoin/blocks/cell_states.h>
 
 #include <gtest/gtest.h>
