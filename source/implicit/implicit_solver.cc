@@ -301,7 +301,9 @@ namespace quoin
     if (now.moved_for <= 0. || target.path > 0. || now.released < 1.
         || acting.pattern)
       return false;
-    equilibrium->find_forces(state, configuration, broken, start);
+    time_shares.measure(
+        assembly_phase, [&]()
+        { equilibrium->find_forces(state, configuration, broken, start); });
     correction = 0.;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -324,7 +326,9 @@ namespace quoin
     if (now.jumps)
     {
       // The motion may be coming to rest, or not have begun.
-      equilibrium->find_forces(state, ahead, broken, trial);
+      time_shares.measure(
+          assembly_phase,
+          [&]() { equilibrium->find_forces(state, ahead, broken, trial); });
       if (trial.unbalanced >= start.unbalanced)
         return false;
     }
