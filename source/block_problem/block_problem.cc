@@ -505,8 +505,8 @@ namespace quoin
                 "they do not change with smaller steps. ";
     if (system.implicit_solver)
       return judged
-             + "Halve 'Largest step' in section 'Implicit', which follows "
-               "loads and joints more closely, and compare.";
+             + "Halve 'First step' and 'Largest step' in section 'Implicit', "
+               "which follows loads and joints more closely, and compare.";
     return judged + "Halve 'Share of critical time step' and compare"
            + (dim == 3 || system.model->parameters().large_displacements
                   ? "."

@@ -26,11 +26,14 @@ namespace quoin
       entries.positive(
           "First step", parameters.first_step,
           "First load increment of a stage, as a fraction of its duration and "
-          "of the out-of-balance forces at its start [-]");
+          "of the out-of-balance forces at its start; later ones are longer "
+          "only while the motion of one, continued, leaves few forces out of "
+          "balance in the next [-]");
       entries.within(
           "Largest step", parameters.largest_step, 0., 1.,
           "Largest load increment, as a fraction of the stage, up to which "
-          "increments grow while few iterations are needed [-]");
+          "increments grow while few iterations are needed and the motion "
+          "continues [-]");
       entries.positive("Smallest step", parameters.smallest_step,
                        "Smallest load increment, as a fraction of the stage; "
                        "the stage fails if it does not converge with it [-]");

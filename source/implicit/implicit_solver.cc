@@ -298,10 +298,12 @@ namespace quoin
                                     Configuration<dim> &configuration)
   {
     const ImplicitState &now = state.template get<ImplicitState>();
-    if (now.moved_for <= 0. || now.jumps || target.path > 0.
-        || now.released < 1. || acting.pattern)
+    if (now.moved_for <= 0. || target.path > 0. || now.released < 1.
+        || acting.pattern)
       return false;
-    equilibrium->find_forces(state, configuration, broken, start);
+    time_shares.measure(
+        assembly_phase, [&]()
+        { equilibrium->find_forces(state, configuration, broken, start); });
     correction = 0.;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -317,9 +319,20 @@ namespace quoin
           correction(body.first + d) = moved[d];
     }
     correction.compress(dealii::VectorOperation::insert);
-    dof_map->move(correction,
-                  (target.load_time - state.load_time) / now.moved_for,
-                  target.load_time, configuration);
+    const double went
+        = now.jumps ? now.drag_step : target.load_time - state.load_time;
+    Configuration<dim> ahead = configuration;
+    dof_map->move(correction, went / now.moved_for, target.load_time, ahead);
+    if (now.jumps)
+    {
+      // The motion may be coming to rest, or not have begun.
+      time_shares.measure(
+          assembly_phase,
+          [&]() { equilibrium->find_forces(state, ahead, broken, trial); });
+      if (trial.unbalanced >= start.unbalanced)
+        return false;
+    }
+    configuration = ahead;
     return true;
   }
 
@@ -330,10 +343,11 @@ namespace quoin
   {
     ImplicitState &now = state.template get<ImplicitState>();
     now.moved_for      = 0.;
-    if (now.jumps || now.released < 1.)
+    if (now.released < 1.)
       return;
     const Configuration<dim> from = configuration_of(dof_map->bodies(), state);
-    now.moved_for                 = configuration.load_time - from.load_time;
+    now.moved_for
+        = now.jumps ? now.drag_step : configuration.load_time - from.load_time;
     now.moved.clear();
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -483,6 +497,14 @@ namespace quoin
       if (!std::isfinite(ratio))
         return Outcome::failed;
       ratios.push_back(ratio);
+      if (iteration == 0)
+      {
+        prediction_error
+            = is_predicted && !state.template get<ImplicitState>().jumps ? ratio
+                                                                         : 0.;
+        if (own_steps.is_too_long(state, target, prediction_error))
+          return Outcome::failed;
+      }
       const bool there = target.path > 0.
                              ? std::abs(balance.path - target.path)
                                    <= path_tolerance * target.path
@@ -652,6 +674,11 @@ namespace quoin
           break;
         refused = path;
       }
+      if (own_steps.is_too_long(state, target, prediction_error))
+      {
+        own_steps.shorten(target, prediction_error, state);
+        continue;
+      }
       ++done.n_cuts;
       if (!own_steps.cut(equilibrium->measures_path(), state))
         give_up(state);
@@ -662,7 +689,7 @@ namespace quoin
     if (state.template get<ImplicitState>().jumps)
       go_on_jumping(before, state);
     else
-      own_steps.adapt(before, iteration, balance.path, state);
+      own_steps.adapt(before, iteration, prediction_error, balance.path, state);
   }
 
   template <int dim>
@@ -691,11 +718,13 @@ namespace quoin
     const StepTarget target{ now.jump_time, 1., 0. };
     if (solve(state, target, configuration) == Outcome::failed)
       return;
-    // Whether the model would have come to an equilibrium that lies far ahead
-    // is what a search for the factor of safety asks: it has to go there.
-    if (stage.safety
-        && largest_move(state.nodes, configuration.nodes)
-               > near_share * largest_move(last_equilibrium.nodes, state.nodes))
+    // An equilibrium far ahead is none that the model comes to; whether it
+    // would is what a search for the factor of safety asks: it has to go there.
+    const double near
+        = stage.safety
+              ? near_share * largest_move(last_equilibrium.nodes, state.nodes)
+              : collapse_share * model.nodes().table().diagonal();
+    if (largest_move(state.nodes, configuration.nodes) > near)
       return;
     commit(configuration, state);
     own_steps.end_jump(now);
@@ -838,7 +867,7 @@ namespace quoin
                     ? ": 'Path following = automatic' in section 'Implicit' "
                       "could follow it down"
                     : "")
-            << "; otherwise lower 'Largest step', raise 'Maximum "
+            << "; otherwise lower 'First step', raise 'Maximum "
                "iterations', or look at the strengths of those joints. The "
                "last equilibrium is kept.";
     throw ModelFailure(message.str());

@@ -13,6 +13,10 @@ namespace quoin
     /** Factors of the step after a failure and, at most, after success. */
     constexpr double cut_factor  = 0.3;
     constexpr double most_growth = 1.5;
+    /** Ratio of unbalanced to applied force where a load step is predicted, up
+        to which it may be longer than the first one, and safety factor on the
+        step for this ratio, which grows with its square. */
+    constexpr double predicted_ratio = 2e-4, prediction_safety = 0.9;
     /** Load step by the last one below which the path is followed. */
     constexpr double path_share = 0.1;
     /** Pseudo-time steps of a jump: drag is a typical stiffness over these. */
@@ -72,6 +76,7 @@ namespace quoin
       return false;
     now.follows_path = false;
     now.jumps        = true;
+    now.moved_for    = 0.;
     now.n_drag       = 0;
     now.drag_time    = 0.;
     now.drag_path    = 0.;
@@ -101,6 +106,7 @@ namespace quoin
   void ImplicitSteps::end_jump(ImplicitState &now) const
   {
     now.jumps     = false;
+    now.moved_for = 0.;
     now.path_step = 0.;
     // After a short jump the equilibrium is the next one on the same path.
     const double next
@@ -146,10 +152,38 @@ namespace quoin
     return now.step >= parameters.smallest_step;
   }
 
+  double ImplicitSteps::longest_step(const double went,
+                                     const double error) const
+  {
+    if (error == 0.)
+      return parameters.largest_step;
+    return std::clamp(prediction_safety * std::sqrt(predicted_ratio / error)
+                          * went,
+                      parameters.first_step, parameters.largest_step);
+  }
+
+  template <int dim>
+  bool ImplicitSteps::is_too_long(const State<dim> &state,
+                                  const StepTarget &target,
+                                  const double error) const
+  {
+    return error > predicted_ratio
+           && target.load_time - state.load_time
+                  > (1. + 1e-9) * parameters.first_step * stage_end;
+  }
+
+  template <int dim>
+  void ImplicitSteps::shorten(const StepTarget &target, const double error,
+                              State<dim> &state) const
+  {
+    state.template get<ImplicitState>().step
+        = longest_step((target.load_time - state.load_time) / stage_end, error);
+  }
+
   template <int dim>
   void ImplicitSteps::adapt(const State<dim> &before,
-                            const unsigned int n_iterations, const double path,
-                            State<dim> &state) const
+                            const unsigned int n_iterations, const double error,
+                            const double path, State<dim> &state) const
   {
     ImplicitState &now = state.template get<ImplicitState>();
     const double went
@@ -188,7 +222,7 @@ namespace quoin
       now.path_step = std::min(path, parameters.largest_path_step);
       now.last_step = went;
       now.step      = std::min(growth * std::max(went, now.step),
-                               parameters.largest_step);
+                               longest_step(went, error));
       if (parameters.path == PathFollowing::always
           && path > 1e-3 * parameters.largest_path_step)
         now.follows_path = true;
@@ -198,11 +232,19 @@ namespace quoin
   template StepTarget ImplicitSteps::target(const State<2> &) const;
   template bool ImplicitSteps::begin_jump(State<2> &) const;
   template bool ImplicitSteps::cut(bool, State<2> &) const;
+  template bool ImplicitSteps::is_too_long(const State<2> &, const StepTarget &,
+                                           double) const;
+  template void ImplicitSteps::shorten(const StepTarget &, double,
+                                       State<2> &) const;
   template void ImplicitSteps::adapt(const State<2> &, unsigned int, double,
-                                     State<2> &) const;
+                                     double, State<2> &) const;
   template StepTarget ImplicitSteps::target(const State<3> &) const;
   template bool ImplicitSteps::begin_jump(State<3> &) const;
   template bool ImplicitSteps::cut(bool, State<3> &) const;
+  template bool ImplicitSteps::is_too_long(const State<3> &, const StepTarget &,
+                                           double) const;
+  template void ImplicitSteps::shorten(const StepTarget &, double,
+                                       State<3> &) const;
   template void ImplicitSteps::adapt(const State<3> &, unsigned int, double,
-                                     State<3> &) const;
+                                     double, State<3> &) const;
 } // namespace quoin

@@ -174,8 +174,9 @@ namespace quoin
                     Configuration<dim> &configuration);
     Outcome solve(const State<dim> &state, const StepTarget &target,
                   Configuration<dim> &configuration);
-    /** Moves @p configuration on as in the last load step, and finds the
-        balance at its start; false: there is nothing to predict by. */
+    /** Moves @p configuration on as in the last load step or step of a jump,
+        and finds the balance at its start; false: there is nothing to predict
+        by, or it is no better. */
     bool predict(const State<dim> &state, const StepTarget &target,
                  Configuration<dim> &configuration);
     /** Keeps the motion from @p state to @p configuration for predict(). */
@@ -221,7 +222,10 @@ namespace quoin
 
     unsigned int attempt = 0, iteration = 0;
     bool is_predicted = false; /**< whether iterations began at a prediction */
-    double last_share = 1.;    /**< last fraction of the line search */
+    /** Unbalanced by applied forces where a load step was predicted; 0: it was
+        not [-]. */
+    double prediction_error = 0.;
+    double last_share       = 1.; /**< last fraction of the line search */
     ImplicitRecord done;
     std::uint64_t current_step        = 0;
     const unsigned int assembly_phase = time_shares.phase("assembly"),

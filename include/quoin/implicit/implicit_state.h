@@ -22,8 +22,9 @@ namespace quoin
         nodes, those of each platen and of each rigid block of this rank
         [N, N m]; empty: none. */
     std::vector<double> held, held_platens, held_blocks;
-    /** Motion in the last load step, in the same order [m, rad], and by how
-        much the load time advanced in it [s]; zero: do not predict by it. */
+    /** Motion in the last load step or step of a jump, in the same order
+        [m, rad], and by how much the load time [s] or the pseudo-time [-]
+        advanced in it; zero: do not predict by it. */
     std::vector<double> moved, moved_platens, moved_blocks;
     double moved_for = 0.;
     double released  = 1.; /**< released share of them [-] */

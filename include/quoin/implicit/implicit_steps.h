@@ -57,11 +57,22 @@ namespace quoin
         whether the path can be followed. */
     template <int dim>
     bool cut(bool measures_path, State<dim> &state) const;
-    /** Chooses the step after that from @p before to @p state, which took
-        @p n_iterations and went along @p path [m]. */
+    /** Whether a load step from @p state to @p target is longer than the first
+        one although its prediction left @p error of the forces out of
+        balance. */
     template <int dim>
-    void adapt(const State<dim> &before, unsigned int n_iterations, double path,
-               State<dim> &state) const;
+    bool is_too_long(const State<dim> &state, const StepTarget &target,
+                     double error) const;
+    /** Makes the next step from @p state, to @p target, shorter for that. */
+    template <int dim>
+    void shorten(const StepTarget &target, double error,
+                 State<dim> &state) const;
+    /** Chooses the step after that from @p before to @p state, which took
+        @p n_iterations, whose prediction left @p error of the forces out of
+        balance, 0 if there was none, and which went along @p path [m]. */
+    template <int dim>
+    void adapt(const State<dim> &before, unsigned int n_iterations,
+               double error, double path, State<dim> &state) const;
 
     /** Makes the next step the first of a jump; false: there are none. */
     template <int dim>
@@ -76,6 +87,10 @@ namespace quoin
     double most_jump_path(const ImplicitState &now) const;
 
   private:
+    /** Longest step for the error that a prediction had in a step that went so
+        far, shares of the stage. */
+    double longest_step(double went, double error) const;
+
     const ImplicitParameters parameters;
     double stage_end = 0.; /**< load time [s] */
     bool rests = false, searches_factor = false;

@@ -277,6 +277,50 @@ TEST(ImplicitSolver, ACollapseResumedWithinItsJumpEndsTheSame)
   EXPECT_EQ(other.run->state.get<ImplicitState>().jumps, false);
 }
 
+TEST(ImplicitSolver, AStepOfAJumpBeginsWithTheMotionOfTheLastOne)
+{
+  Sliding sliding(true);
+  ImplicitRun &run = *sliding.run;
+  while (run.state.get<ImplicitState>().n_drag < 4)
+    run.solver.step(run.state);
+  // What is beyond the friction drags the block at a constant velocity.
+  run.solver.record().iterations.clear();
+  run.solver.step(run.state);
+  ASSERT_EQ(run.state.get<ImplicitState>().n_drag, 5U);
+  const double out_of_balance
+      = 8e5 * run.state.get<ImplicitState>().jump_time - 5e5;
+  EXPECT_LT(run.solver.record().iterations.front().unbalanced_ratio,
+            1e-3 * out_of_balance / 1e6);
+}
+
+TEST(ImplicitSolver, StepsAreLongWhereTheMotionGoesOnAndShortWhereItTurns)
+{
+  BlockMesh<2> mesh;
+  make_row(mesh);
+  ImplicitParameters numbers;
+  numbers.first_step   = 0.01;
+  numbers.largest_step = 0.2;
+  ImplicitRun run(
+      mesh, three_blocks(),
+      { moved("left", "0", ""), moved("floor", "", "0"),
+        traction("pull", "right", "3e6 * (t < 0.5 ? t : 1.1 - 1.2 * t)", "") },
+      numbers);
+  run.begin({ "left", "floor", "pull" });
+  double longest = 0., at_the_turn = 0.;
+  while (!run.solver.has_ended(run.state))
+  {
+    const double before = run.state.load_time;
+    run.solver.step(run.state);
+    const double step = run.state.load_time - before;
+    longest           = std::max(longest, step);
+    if (before <= 0.5 && run.state.load_time > 0.5)
+      at_the_turn = step;
+  }
+  EXPECT_GT(longest, 0.1);
+  EXPECT_LT(at_the_turn, 0.0101);
+  EXPECT_LT(run.state.stage_step, 40U);
+}
+
 TEST(ImplicitSolver, ALoadThatJumpsAtTheStartRestsFromThereOn)
 {
   BlockMesh<2> mesh;
