@@ -417,7 +417,8 @@ namespace quoin
   {
     for (unsigned int c = captured_begin.back(); c < captured.size(); ++c)
       capture(captured[c], state);
-    return { force.data(), viscous_force.data() };
+    return { force.data(),
+             has_viscous_forces() ? viscous_force.data() : nullptr };
   }
 
   template <int dim>
