@@ -162,6 +162,24 @@ namespace quoin
   {
   }
 
+  namespace
+  {
+    /** x and y of a node at once, which compilers do not find by themselves. */
+    using Two = double __attribute__((vector_size(16), aligned(8), may_alias));
+    const Two &two(const double &first)
+    {
+      return *reinterpret_cast<const Two *>(&first);
+    }
+    Two &two(double &first)
+    {
+      return *reinterpret_cast<Two *>(&first);
+    }
+    Two swap(const Two &a)
+    {
+      return __builtin_shufflevector(a, a, 1, 0);
+    }
+  } // namespace
+
   inline DEAL_II_ALWAYS_INLINE void
   RigidBlocks::place_nodes(const Block &block, const RigidBlockState &rigid,
                            const Direction &before, const Direction &after,
@@ -170,19 +188,19 @@ namespace quoin
     // 1 - cos without cancellation.
     const double versine
         = after.c > 0. ? after.s * after.s / (1. + after.c) : 1. - after.c;
-    const double c = before.c + after.c, s = before.s + after.s;
+    // Velocities follow from the mean of the arms before and after.
     const double half = 0.5 * rigid.velocity[2];
-    const Arm *arm    = arms_of(block);
+    const double c    = half * (before.c + after.c);
+    const double s    = half * (before.s + after.s);
+    const Two way     = two(rigid.displacement[0]);
+    const Two speed   = two(rigid.velocity[0]);
+    const Two sine = { -after.s, after.s }, cosine = { -c, c };
+    const Arm *arm = arms_of(block);
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
     {
-      const double x = arm->x, y = arm->y;
-      dealii::Tensor<1, 2> &u = state.nodes[i].u;
-      u[0] = rigid.displacement[0] - versine * x - after.s * y;
-      u[1] = rigid.displacement[1] + after.s * x - versine * y;
-      // Velocities follow from the mean of the arms before and after.
-      dealii::Tensor<1, 2> &v = state.velocity[i];
-      v[0]                    = rigid.velocity[0] - half * (s * x + c * y);
-      v[1]                    = rigid.velocity[1] + half * (c * x - s * y);
+      const Two r = two(arm->x), across = swap(r);
+      two(state.nodes[i].u[0])  = way - versine * r + sine * across;
+      two(state.velocity[i][0]) = speed - s * r + cosine * across;
     }
   }
 
@@ -190,17 +208,17 @@ namespace quoin
   RigidBlocks::resultant(const Block &block, const Direction &now,
                          const dealii::Tensor<1, 2> *force) const
   {
-    std::array<double, 3> sum{};
+    Two sum{}, along{}, across{};
     const Arm *arm = arms_of(block);
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
     {
-      const dealii::Tensor<1, 2> &f = force[i];
-      sum[0] += f[0];
-      sum[1] += f[1];
-      sum[2] += (now.c * arm->x - now.s * arm->y) * f[1]
-                - (now.s * arm->x + now.c * arm->y) * f[0];
+      const Two f = two(force[i][0]), r = two(arm->x);
+      sum += f;
+      along += r * f;
+      across += r * swap(f);
     }
-    return sum;
+    return { sum[0], sum[1],
+             now.c * (across[0] - across[1]) - now.s * (along[0] + along[1]) };
   }
 
   struct RigidBlocks::Pack
