@@ -359,27 +359,6 @@ namespace quoin
         force[nodes[i]][d] += values[3] * inward[i][d];
   }
 
-  namespace
-  {
-    /** Of the vectors of some nodes. */
-    template <int dim>
-    dealii::Tensor<1, dim> weighted_sum(const std::vector<unsigned int> &nodes,
-                                        const std::vector<double> &weights,
-                                        const dealii::Tensor<1, dim> *vectors)
-    {
-      // Chains of additions beside each other.
-      constexpr unsigned int n_chains = 4;
-      dealii::Tensor<1, dim> sum[n_chains];
-      unsigned int i = 0;
-      for (; i + n_chains <= nodes.size(); i += n_chains)
-        for (unsigned int k = 0; k < n_chains; ++k)
-          sum[k] += weights[i + k] * vectors[nodes[i + k]];
-      for (; i < nodes.size(); ++i)
-        sum[0] += weights[i] * vectors[nodes[i]];
-      return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    }
-  } // namespace
-
   template <int dim>
   double
   NodalLoad<dim>::external_power(const TimePoint &time,
@@ -394,8 +373,10 @@ namespace quoin
           power += forces[i][d] * velocity[nodes[i]][d];
       return grown_share(time.stage, ramp_duration) * power;
     }
-    double inflow                    = 0.;
-    const dealii::Tensor<1, dim> sum = weighted_sum(nodes, weights, velocity);
+    double sum[dim]{}, inflow = 0.;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        sum[d] += weights[i] * velocity[nodes[i]][d];
     for (unsigned int i = 0; i < inward.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         inflow += inward[i][d] * velocity[nodes[i]][d];
