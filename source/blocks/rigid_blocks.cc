@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/lane_functions.h>
 #include <quoin/base/plane_geometry.h>
 #include <quoin/base/packed_vectors.h>
 #include <quoin/base/exceptions.h>
@@ -161,54 +162,120 @@ namespace quoin
   {
   }
 
-  inline DEAL_II_ALWAYS_INLINE RigidBlocks::Resultants
-  RigidBlocks::take_forces(const Block &block, const Direction &now,
-                           dealii::Tensor<1, 2> *force,
-                           dealii::Tensor<1, 2> *viscous) const
+  namespace
   {
-    Resultants sum;
-    const auto take = [](double(&to)[3], const double x, const double y,
-                         dealii::Tensor<1, 2> &node)
+    /** x and y of a node at once, which compilers do not find by themselves. */
+    using Two = double __attribute__((vector_size(16), aligned(8), may_alias));
+    const Two &two(const double &first)
     {
-      to[0] += node[0];
-      to[1] += node[1];
-      to[2] += x * node[1] - y * node[0];
-      node = dealii::Tensor<1, 2>();
-    };
-    const Arm *arm = arms_of(block);
-    for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
-    {
-      const double x = now.c * arm->x - now.s * arm->y;
-      const double y = now.s * arm->x + now.c * arm->y;
-      take(sum.force, x, y, force[i]);
-      take(sum.viscous, x, y, viscous[i]);
+      return *reinterpret_cast<const Two *>(&first);
     }
-    return sum;
-  }
+    Two &two(double &first)
+    {
+      return *reinterpret_cast<Two *>(&first);
+    }
+    Two swap(const Two &a)
+    {
+      return __builtin_shufflevector(a, a, 1, 0);
+    }
+  } // namespace
 
   inline DEAL_II_ALWAYS_INLINE void
   RigidBlocks::place_nodes(const Block &block, const RigidBlockState &rigid,
-                           const Direction &before, State<2> &state) const
+                           const Direction &before, const Direction &after,
+                           State<2> &state) const
   {
-    const Direction after(rigid.rotation);
     // 1 - cos without cancellation.
     const double versine
         = after.c > 0. ? after.s * after.s / (1. + after.c) : 1. - after.c;
-    const double c = before.c + after.c, s = before.s + after.s;
+    // Velocities follow from the mean of the arms before and after.
     const double half = 0.5 * rigid.velocity[2];
-    const Arm *arm    = arms_of(block);
+    const double c    = half * (before.c + after.c);
+    const double s    = half * (before.s + after.s);
+    const Two way     = two(rigid.displacement[0]);
+    const Two speed   = two(rigid.velocity[0]);
+    const Two sine = { -after.s, after.s }, cosine = { -c, c };
+    const Arm *arm = arms_of(block);
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
     {
-      const double x = arm->x, y = arm->y;
-      dealii::Tensor<1, 2> &u = state.nodes[i].u;
-      u[0] = rigid.displacement[0] - versine * x - after.s * y;
-      u[1] = rigid.displacement[1] + after.s * x - versine * y;
-      // Velocities follow from the mean of the arms before and after.
-      dealii::Tensor<1, 2> &v = state.velocity[i];
-      v[0]                    = rigid.velocity[0] - half * (s * x + c * y);
-      v[1]                    = rigid.velocity[1] + half * (c * x - s * y);
+      const Two r = two(arm->x), across = swap(r);
+      two(state.nodes[i].u[0])  = way - versine * r + sine * across;
+      two(state.velocity[i][0]) = speed - s * r + cosine * across;
     }
   }
+
+  inline DEAL_II_ALWAYS_INLINE std::array<double, 3>
+  RigidBlocks::resultant(const Block &block, const Direction &now,
+                         const dealii::Tensor<1, 2> *force) const
+  {
+    Two sum{}, along{}, across{};
+    const Arm *arm = arms_of(block);
+    for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+    {
+      const Two f = two(force[i][0]), r = two(arm->x);
+      sum += f;
+      along += r * f;
+      across += r * swap(f);
+    }
+    return { sum[0], sum[1],
+             now.c * (across[0] - across[1]) - now.s * (along[0] + along[1]) };
+  }
+
+  struct RigidBlocks::Pack
+  {
+    static constexpr unsigned int lanes = native_lanes;
+    using F                             = LaneFunctions<lanes>;
+    using Value                         = F::Value;
+
+    // Lanes of held blocks, and beyond the last one, have mass and are at rest.
+    alignas(64) double force[3][lanes]{}, viscous[3][lanes]{};
+    alignas(64) double mass[3][lanes], velocity[3][lanes]{};
+    alignas(64) double rotation[lanes]{};
+
+    Pack()
+    {
+      std::fill_n(mass[0], 3 * lanes, 1.);
+    }
+
+    struct Sums
+    {
+      Value before{}, after{}, mass_power{}, kinetic_change{}, unbalanced{};
+    };
+    /** As advance_nodes_damped() for a node's two degrees of freedom. */
+    void move(const StepContext &step, Sums &sums)
+    {
+      const double a            = 0.5 * step.dt_velocity * step.mass_damping;
+      const double decay        = (1. - a) / (1. + a);
+      const double push         = step.dt_velocity / (1. + a);
+      const double inverse_push = 1. / push;
+      Value f[3], m[3];
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        f[d]             = F::load(force[d]);
+        m[d]             = F::load(mass[d]);
+        const Value fv   = F::load(viscous[d]);
+        const Value v0   = F::load(velocity[d]);
+        const Value gain = push / m[d];
+        const Value w    = decay * v0 + gain * (f[d] + fv);
+        const Value v1
+            = w
+              - local_damping_velocity<lanes>(
+                  step.local_damping * gain * F::absolute(f[d]), v0, w);
+        const Value drag = fv
+                           + m[d]
+                                 * (inverse_push * (v1 - w)
+                                    - 0.5 * step.mass_damping * (v0 + v1));
+        sums.before -= drag * v0;
+        sums.after -= drag * v1;
+        sums.mass_power += 0.25 * m[d] * (v0 + v1) * (v0 + v1);
+        sums.kinetic_change += 0.5 * m[d] * (v1 - v0) * (v1 + v0);
+        F::store(velocity[d], v1);
+      }
+      sums.unbalanced += F::square_root(f[0] * f[0] + f[1] * f[1])
+                         + F::absolute(f[2]) * F::square_root(m[0] / m[2]);
+      F::store(rotation, F::load(rotation) + step.dt * F::load(velocity[2]));
+    }
+  };
 
   RigidBlockWork RigidBlocks::advance(const StepContext &step,
                                       const RigidBlockStage &stage,
@@ -216,71 +283,75 @@ namespace quoin
                                       dealii::Tensor<1, 2> *viscous,
                                       State<2> &state) const
   {
-    const double a            = 0.5 * step.dt_velocity * step.mass_damping;
-    const double decay        = (1. - a) / (1. + a);
-    const double push         = step.dt_velocity / (1. + a);
-    const double inverse_push = 1. / push;
+    constexpr unsigned int lanes = Pack::lanes;
+    using F                      = Pack::F;
+    RigidBlockStates &rigid      = state.get<RigidBlockStates>();
+    Pack::Sums sums;
+    for (unsigned int first = 0; first < blocks.size(); first += lanes)
+    {
+      const unsigned int n
+          = std::min<unsigned int>(lanes, blocks.size() - first);
+      Pack pack;
+      for (unsigned int l = 0; l < n; ++l)
+        pack.rotation[l] = rigid[first + l].rotation;
+      alignas(64) double sine[2][lanes], cosine[2][lanes];
+      const auto turn = [&](const unsigned int when)
+      {
+        F::Value s, c;
+        F::sine_cosine(F::load(pack.rotation), s, c);
+        F::store(sine[when], s);
+        F::store(cosine[when], c);
+      };
+      turn(0);
+      for (unsigned int l = 0; l < n; ++l)
+      {
+        const unsigned int b = first + l;
+        const Block &block   = blocks[b];
+        if (!stage.held[b])
+        {
+          const Direction now(cosine[0][l], sine[0][l]);
+          const auto mass = inertia(stage, b);
+          const auto f    = resultant(block, now, force);
+          for (unsigned int d = 0; d < 3; ++d)
+          {
+            pack.force[d][l]    = f[d];
+            pack.mass[d][l]     = mass[d];
+            pack.velocity[d][l] = rigid[b].velocity[d];
+          }
+          if (viscous)
+          {
+            const auto fv = resultant(block, now, viscous);
+            for (unsigned int d = 0; d < 3; ++d)
+              pack.viscous[d][l] = fv[d];
+          }
+        }
+        std::fill(force + block.begin, force + block.end,
+                  dealii::Tensor<1, 2>());
+        if (viscous)
+          std::fill(viscous + block.begin, viscous + block.end,
+                    dealii::Tensor<1, 2>());
+      }
+      pack.move(step, sums);
+      turn(1);
+      for (unsigned int l = 0; l < n; ++l)
+      {
+        const unsigned int b = first + l;
+        if (stage.held[b])
+          continue;
+        for (unsigned int d = 0; d < 3; ++d)
+          rigid[b].velocity[d] = pack.velocity[d][l];
+        rigid[b].displacement += step.dt * vector_at(rigid[b].velocity, 0);
+        rigid[b].rotation = pack.rotation[l];
+        place_nodes(blocks[b], rigid[b], { cosine[0][l], sine[0][l] },
+                    { cosine[1][l], sine[1][l] }, state);
+      }
+    }
     RigidBlockWork work;
-    for (unsigned int b = 0; b < blocks.size(); ++b)
-    {
-      const Block &block = blocks[b];
-      if (stage.held[b])
-      {
-        for (unsigned int i = block.begin; i < block.end; ++i)
-          force[i] = viscous[i] = dealii::Tensor<1, 2>();
-        continue;
-      }
-      RigidBlockState &rigid = state.get<RigidBlockStates>()[b];
-      const Direction before(rigid.rotation);
-      const auto [f, fv] = take_forces(block, before, force, viscous);
-
-      // As advance_nodes_damped() for a node's two degrees of freedom.
-      const auto mass      = inertia(stage, b);
-      DampingWork &damping = work.damping;
-      for (unsigned int d = 0; d < 3; ++d)
-      {
-        const double m    = mass[d];
-        const double gain = push / m;
-        const double v0   = rigid.velocity[d];
-        const double w    = decay * v0 + gain * (f[d] + fv[d]);
-        const double v1
-            = w
-              - local_damping_velocity(
-                  step.local_damping * gain * std::abs(f[d]), v0, w);
-        const double drag = fv[d]
-                            + m
-                                  * (inverse_push * (v1 - w)
-                                     - 0.5 * step.mass_damping * (v0 + v1));
-        damping.before -= 0.5 * step.dt_before * drag * v0;
-        damping.after -= 0.5 * step.dt * drag * v1;
-        damping.mass_power += 0.25 * m * (v0 + v1) * (v0 + v1);
-        damping.kinetic_change += 0.5 * m * (v1 - v0) * (v1 + v0);
-        rigid.velocity[d] = v1;
-      }
-      rigid.displacement += step.dt * vector_at(rigid.velocity, 0);
-      rigid.rotation += step.dt * rigid.velocity[2];
-      work.unbalanced += std::hypot(f[0], f[1])
-                         + std::abs(f[2]) * std::sqrt(mass[0] / mass[2]);
-      place_nodes(block, rigid, before, state);
-    }
+    work.damping    = { 0.5 * step.dt_before * F::sum(sums.before),
+                        0.5 * step.dt * F::sum(sums.after),
+                        F::sum(sums.mass_power), F::sum(sums.kinetic_change) };
+    work.unbalanced = F::sum(sums.unbalanced);
     return work;
-  }
-
-  std::array<double, 3>
-  RigidBlocks::resultant(const Block &block, const Direction &now,
-                         const dealii::Tensor<1, 2> *force) const
-  {
-    std::array<double, 3> sum{};
-    const Arm *arm = arms_of(block);
-    for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
-    {
-      const dealii::Tensor<1, 2> &f = force[i];
-      sum[0] += f[0];
-      sum[1] += f[1];
-      sum[2] += (now.c * arm->x - now.s * arm->y) * f[1]
-                - (now.s * arm->x + now.c * arm->y) * f[0];
-    }
-    return sum;
   }
 
   double RigidBlocks::mobility(const RigidBlockStage &stage,
@@ -321,7 +392,7 @@ namespace quoin
         rigid.velocity[d] += change;
         (d == 2 ? rigid.rotation : rigid.displacement[d]) += dt * change;
       }
-      place_nodes(blocks[b], rigid, before, state);
+      place_nodes(blocks[b], rigid, before, Direction(rigid.rotation), state);
     }
   }
 

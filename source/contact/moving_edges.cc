@@ -29,10 +29,21 @@ namespace quoin
     bind_nodes();
   }
 
-  unsigned int MovingEdges::local_edge(const unsigned int edge) const
+  unsigned int MovingEdges::place_of(const unsigned int number) const
   {
-    return std::lower_bound(edge_numbers.begin(), edge_numbers.end(), edge)
+    return std::lower_bound(edge_numbers.begin(), edge_numbers.end(), number)
            - edge_numbers.begin();
+  }
+
+  unsigned int MovingEdges::find_edge(const unsigned int number) const
+  {
+    if (number == none)
+      return n_edges();
+    if (edges.is_own(number))
+      return index_of_own[edges.own_place(number)];
+    const unsigned int place = place_of(number);
+    return place < n_edges() && edge_numbers[place] == number ? place
+                                                              : n_edges();
   }
 
   void MovingEdges::bind_edges(const AlignedArray<ContactPair> &pairs)
@@ -46,19 +57,39 @@ namespace quoin
       edges.fetch(numbers);
     };
     edge_numbers.clear();
+    // Own edges are taken once, which leaves little to sort.
+    index_of_own.assign(edges.own().size(), none);
+    const auto take = [this](const unsigned int number)
+    {
+      if (edges.is_own(number))
+      {
+        unsigned int &index = index_of_own[edges.own_place(number)];
+        if (index != none)
+          return;
+        index = 0;
+      }
+      edge_numbers.push_back(number);
+    };
     for (const ContactPair &pair : pairs)
-      edge_numbers.insert(edge_numbers.end(), { pair.lower, pair.upper });
+    {
+      take(pair.lower);
+      take(pair.upper);
+    }
     find(edge_numbers);
-    const unsigned int n_edges = edge_numbers.size();
-    for (unsigned int e = 0; e < n_edges; ++e)
+    const unsigned int n_taken = edge_numbers.size();
+    for (unsigned int e = 0; e < n_taken; ++e)
     {
       const ContactEdge &edge = edges[edge_numbers[e]];
       for (const unsigned int neighbour : { edge.previous, edge.next })
         if (neighbour != none)
-          edge_numbers.push_back(neighbour);
+          take(neighbour);
     }
     find(edge_numbers);
     edges.keep(edge_numbers);
+    std::fill(index_of_own.begin(), index_of_own.end(), n_edges());
+    for (unsigned int e = 0; e < n_edges(); ++e)
+      if (edges.is_own(edge_numbers[e]))
+        index_of_own[edges.own_place(edge_numbers[e])] = e;
 
     // Lanes beyond the last edge have some that no pair has.
     const unsigned int n_places
@@ -76,13 +107,8 @@ namespace quoin
       {
         edge_links[e].corner[k] = edge.corner[k];
         // The neighbours of mere neighbours are not needed.
-        const unsigned int next = k == 0 ? edge.previous : edge.next;
-        edge_links[e].neighbours[k]
-            = next != none
-                      && std::binary_search(edge_numbers.begin(),
-                                            edge_numbers.end(), next)
-                  ? local_edge(next)
-                  : e;
+        const unsigned int next = find_edge(k == 0 ? edge.previous : edge.next);
+        edge_links[e].neighbours[k] = next < n_edges() ? next : e;
       }
     }
   }
@@ -92,38 +118,45 @@ namespace quoin
     // Nodes of own edges first, then those of foreign ones, both ascending.
     std::vector<unsigned int> ghosts;
     compact_own.clear();
+    index_of_node.resize(exchange.n_local(), none);
     for (const unsigned int e : edge_numbers)
       if (edges.is_own(e))
         for (const unsigned int i : edges.local_nodes()[edges.own_place(e)])
-          compact_own.push_back(i);
+        {
+          if (index_of_node[i] == none)
+            compact_own.push_back(i);
+          index_of_node[i] = 0;
+        }
       else
         for (const unsigned int v : edges[e].nodes)
           ghosts.push_back(v);
-    for (auto *list : { &compact_own, &ghosts })
-    {
-      std::sort(list->begin(), list->end());
-      list->erase(std::unique(list->begin(), list->end()), list->end());
-    }
+    std::sort(compact_own.begin(), compact_own.end());
+    for (unsigned int i = 0; i < compact_own.size(); ++i)
+      index_of_node[compact_own[i]] = i;
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
     if (dealii::Utilities::MPI::max(!reach || ghosts != far_nodes ? 1U : 0U,
                                     exchange.communicator())
         > 0)
       reach = std::make_unique<NodeExchange>(exchange.with_partners(ghosts));
     far_nodes = ghosts;
 
-    const auto place = [](const std::vector<unsigned int> &list,
-                          const unsigned int node) -> unsigned int
-    { return std::lower_bound(list.begin(), list.end(), node) - list.begin(); };
     for (unsigned int e = 0; e < edge_numbers.size(); ++e)
       for (unsigned int k = 0; k < 2; ++k)
       {
         const unsigned int number = edge_numbers[e];
-        edge_links[e].nodes[k]
-            = edges.is_own(number)
-                  ? place(compact_own,
-                          edges.local_nodes()[edges.own_place(number)][k])
-                  : compact_own.size()
-                        + place(far_nodes, edges[number].nodes[k]);
+        if (edges.is_own(number))
+          edge_links[e].nodes[k]
+              = index_of_node[edges.local_nodes()[edges.own_place(number)][k]];
+        else
+          edge_links[e].nodes[k]
+              = compact_own.size()
+                + (std::lower_bound(far_nodes.begin(), far_nodes.end(),
+                                    edges[number].nodes[k])
+                   - far_nodes.begin());
       }
+    for (const unsigned int i : compact_own)
+      index_of_node[i] = none;
 
     ghost_nodes.resize(ghosts.size());
     ghost_velocity.resize(ghosts.size());

@@ -269,10 +269,10 @@ namespace quoin
     const auto advance = stage.damping == DampingType::adaptive
                              ? advance_nodes_damped<true, dim>
                              : advance_nodes_damped<false, dim>;
-    sums.damping += advance(range.begin, range.end, state.nodes.data(),
-                            state.velocity.data(), force.data(),
-                            viscous_force.data(), moving_mass.data(),
-                            inverse_mass.data(), factors, context.dt);
+    sums.damping += advance(
+        range.begin, range.end, state.nodes.data(), state.velocity.data(),
+        force.data(), has_viscous_forces() ? viscous_force.data() : nullptr,
+        moving_mass.data(), inverse_mass.data(), factors, context.dt);
   }
 
   template <int dim>
@@ -417,7 +417,8 @@ namespace quoin
   {
     for (unsigned int c = captured_begin.back(); c < captured.size(); ++c)
       capture(captured[c], state);
-    return { force.data(), viscous_force.data() };
+    return { force.data(),
+             has_viscous_forces() ? viscous_force.data() : nullptr };
   }
 
   template <int dim>

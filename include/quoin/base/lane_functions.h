@@ -265,7 +265,66 @@ namespace quoin
 #endif
     }
 
+    /** To an ulp; of angles beyond 1e5, more than any block turns, by those of
+        the library. */
+    static QUOIN_INLINE void sine_cosine(const Value &angle, Value &sine,
+                                         Value &cosine)
+    {
+      if constexpr (lanes == 1)
+      {
+        sine   = std::sin(angle);
+        cosine = std::cos(angle);
+      }
+      else
+      {
+        if (!all(absolute(angle) < 1e5))
+        {
+          sine   = each([&](const int l) { return std::sin(angle[l]); });
+          cosine = each([&](const int l) { return std::cos(angle[l]); });
+          return;
+        }
+        // The multiple of pi/2 that is next to the angle, whose last bits are
+        // those of a large number, is taken off in two parts.
+        const Value large   = Value{} + 6755399441055744.; // 1.5 * 2^52
+        const Value sum     = angle * 0.63661977236758134308 + large;
+        const Bits quadrant = (Bits)sum;
+        const Value n       = sum - large;
+        const Value x       = (angle - n * 1.57079632673412561417)
+                        - n * 6.07710050650619224932e-11;
+        // Polynomials of W. Kahan's and K. C. Ng's functions in fdlibm.
+        const Value z = x * x;
+        const Value s = x
+                        + x * z
+                              * polynomial(z, { -1.66666666666666324348e-1,
+                                                8.33333333332248946124e-3,
+                                                -1.98412698298579493134e-4,
+                                                2.75573137070700676789e-6,
+                                                -2.50507602534068634195e-8,
+                                                1.58969099521155010221e-10 });
+        const Value high
+            = z * z
+              * polynomial(
+                  z,
+                  { 4.16666666666666019037e-2, -1.38888888888741095749e-3,
+                    2.48015872894767294178e-5, -2.75573143513906633035e-7,
+                    2.08757232129817482790e-9, -1.13596475577881948265e-11 });
+        const Value half = 0.5 * z, main = 1. - half;
+        const Value c     = main + (((1. - main) - half) + high);
+        const Bits is_odd = (quadrant & 1) != 0;
+        const Value a = is_odd ? c : s, b = is_odd ? s : c;
+        sine   = (quadrant & 2) != 0 ? -a : a;
+        cosine = ((quadrant + 1) & 2) != 0 ? -b : b;
+      }
+    }
+
   private:
+    static QUOIN_INLINE Value polynomial(const Value &x, const double (&c)[6])
+    {
+      Value sum = Value{} + c[5];
+      for (int i = 4; i >= 0; --i)
+        sum = c[i] + x * sum;
+      return sum;
+    }
 #ifdef __AVX__
     template <typename Function>
     static QUOIN_INLINE Value by_four(const Value &a, const Function &function)

@@ -4,6 +4,8 @@
 #ifndef quoin_base_local_damping_h
 #define quoin_base_local_damping_h
 
+#include <quoin/base/lane_functions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,6 +26,20 @@ namespace quoin
   {
     const double sum = v0 + v1;
     return std::copysign(std::min(strength, 0.5 * std::abs(sum)), sum);
+  }
+
+  /** The same of several degrees of freedom. */
+  template <int lanes>
+  QUOIN_INLINE typename Lanes<lanes>::Value
+  local_damping_velocity(const typename Lanes<lanes>::Value &strength,
+                         const typename Lanes<lanes>::Value &v0,
+                         const typename Lanes<lanes>::Value &v1)
+  {
+    using F                                = LaneFunctions<lanes>;
+    const typename Lanes<lanes>::Value sum = v0 + v1;
+    const typename Lanes<lanes>::Value size
+        = F::minimum(strength, 0.5 * F::absolute(sum));
+    return sum < 0. ? -size : size;
   }
 } // namespace quoin
 

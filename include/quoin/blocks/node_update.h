@@ -80,11 +80,77 @@ namespace quoin
     }
   };
 
+  /** The numbers from @p first on, each twice. */
+  template <int lanes>
+  QUOIN_INLINE typename Lanes<lanes>::Value twice(const double *first)
+  {
+    if constexpr (lanes == 4)
+      return { first[0], first[0], first[1], first[1] };
+    else
+    {
+      const Lanes<4>::Value a = Lanes<4>::four(first);
+      return __builtin_shufflevector(a, a, 0, 0, 1, 1, 2, 2, 3, 3);
+    }
+  }
+
+  /**
+   * Degrees of freedom that advance_nodes_damped() moves at once; one has its
+   * formulas, too.
+   */
+  template <bool adaptive, int lanes>
+  struct DampedLanes
+  {
+    using F     = LaneFunctions<lanes>;
+    using Value = typename F::Value;
+
+    double decay, push, inverse_push, local, mass_damping;
+    Value before{}, after{}, power{}, change{};
+
+    DampedLanes(const DampingFactors &damping)
+      : local(damping.local), mass_damping(damping.mass)
+    {
+      const double a = 0.5 * damping.dt_velocity * damping.mass;
+      decay          = (1. - a) / (1. + a);
+      push           = damping.dt_velocity / (1. + a);
+      inverse_push   = 1. / push;
+    }
+
+    /** The new velocity. */
+    QUOIN_INLINE Value advance(const Value &v0, const Value &f,
+                               const Value &viscous, const Value &m,
+                               const Value &inverse_mass)
+    {
+      const Value gain = push * inverse_mass;
+      const Value keep = m > 0. ? Value{} + decay : Value{} + 1.;
+      const Value w    = keep * v0 + gain * (f + viscous);
+      const Value v1   = w
+                       - local_damping_velocity<lanes>(
+                           local * gain * F::absolute(f), v0, w);
+      const Value drag
+          = (m > 0. ? viscous : Value{})
+            + m * (inverse_push * (v1 - w) - 0.5 * mass_damping * (v0 + v1));
+      before -= drag * v0;
+      after -= drag * v1;
+      if (adaptive)
+      {
+        power += 0.25 * m * (v0 + v1) * (v0 + v1);
+        change += 0.5 * m * (v1 - v0) * (v1 + v0);
+      }
+      return v1;
+    }
+
+    DampingWork work(const double dt_before, const double dt) const
+    {
+      return { 0.5 * dt_before * F::sum(before), 0.5 * dt * F::sum(after),
+               F::sum(power), F::sum(change) };
+    }
+  };
+
   /**
    * As advance_nodes(), with local and mass-proportional damping and the
-   * stiffness-proportional damping forces @p viscous, which it clears too.
-   * Mass-proportional damping is centred in time (@cite JinWangZhang1998,
-   * Eq. 5) and does not affect stability.
+   * stiffness-proportional damping forces @p viscous, which it clears too; null
+   * if there are none. Mass-proportional damping is centred in time
+   * (@cite JinWangZhang1998, Eq. 5) and does not affect stability.
    *
    * @p mass and @p inverse_mass are both zero at constrained nodes, which are
    * damped elsewhere. Power and change of kinetic energy are computed if
@@ -101,51 +167,51 @@ namespace quoin
                        const double *__restrict inverse_mass,
                        const DampingFactors &damping, const double dt)
   {
-    const double a            = 0.5 * damping.dt_velocity * damping.mass;
-    const double decay        = (1. - a) / (1. + a);
-    const double push         = damping.dt_velocity / (1. + a);
-    const double inverse_push = 1. / push;
-    // Sums by component: half the length of each chain of additions.
-    double before[dim]{}, after[dim]{}, power[dim]{}, change[dim]{};
-    for (std::size_t i = begin; i < end; ++i)
+    std::size_t i = begin;
+    DampingWork work;
+    if constexpr (dim == 2)
     {
-      const double m    = mass[i];
-      const double gain = push * inverse_mass[i];
-      const double keep = m > 0. ? decay : 1.;
+      constexpr int lanes   = native_lanes;
+      constexpr int n_nodes = lanes / dim;
+      using F               = LaneFunctions<lanes>;
+      using Two
+          = double __attribute__((vector_size(16), aligned(8), may_alias));
+      DampedLanes<adaptive, lanes> several(damping);
+      for (; i + n_nodes <= end; i += n_nodes)
+      {
+        double *v = &velocity[i][0], *f = &force[i][0];
+        typename F::Value fv{};
+        if (viscous)
+        {
+          fv = F::load(&viscous[i][0]);
+          F::store(&viscous[i][0], typename F::Value{});
+        }
+        const typename F::Value v1 = several.advance(
+            F::load(v), F::load(f), fv, twice<lanes>(mass + i),
+            twice<lanes>(inverse_mass + i));
+        F::store(v, v1);
+        F::store(f, typename F::Value{});
+        for (int k = 0; k < n_nodes; ++k)
+          *reinterpret_cast<Two *>(&nodes[i + k].u)
+              += dt * Two{ v1[2 * k], v1[2 * k + 1] };
+      }
+      work = several.work(damping.dt_before, dt);
+    }
+    DampedLanes<adaptive, 1> one(damping);
+    for (; i < end; ++i)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double v0 = velocity[i][d];
-        const double f  = force[i][d];
-        const double fv = viscous[i][d];
-        const double w  = keep * v0 + gain * (f + fv);
-        const double v1 = w
-                          - local_damping_velocity(
-                              damping.local * gain * std::abs(f), v0, w);
-        const double drag
-            = (m > 0. ? fv : 0.)
-              + m * (inverse_push * (v1 - w) - 0.5 * damping.mass * (v0 + v1));
-        before[d] -= drag * v0;
-        after[d] -= drag * v1;
-        if (adaptive)
-        {
-          power[d] += 0.25 * m * (v0 + v1) * (v0 + v1);
-          change[d] += 0.5 * m * (v1 - v0) * (v1 + v0);
-        }
-        velocity[i][d] = v1;
+        const double v1 = one.advance(velocity[i][d], force[i][d],
+                                      viscous ? viscous[i][d] : 0., mass[i],
+                                      inverse_mass[i]);
+        velocity[i][d]  = v1;
         nodes[i].u[d] += dt * v1;
-        force[i][d]   = 0.;
-        viscous[i][d] = 0.;
+        force[i][d] = 0.;
+        if (viscous)
+          viscous[i][d] = 0.;
       }
-    }
-    for (unsigned int d = 1; d < dim; ++d)
-    {
-      before[0] += before[d];
-      after[0] += after[d];
-      power[0] += power[d];
-      change[0] += change[d];
-    }
-    return { 0.5 * damping.dt_before * before[0], 0.5 * dt * after[0], power[0],
-             change[0] };
+    work += one.work(damping.dt_before, dt);
+    return work;
   }
 } // namespace quoin
 

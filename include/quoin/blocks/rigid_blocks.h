@@ -131,6 +131,8 @@ namespace quoin
     /**
      * Advances one central difference step with the forces on the nodes, which
      * it clears; damping as in advance_nodes_damped(). Held blocks do not move.
+     * @p viscous may be null. Blocks go through SIMD lanes together, but for
+     * their nodes.
      */
     RigidBlockWork advance(const StepContext &step,
                            const RigidBlockStage &stage,
@@ -187,22 +189,20 @@ namespace quoin
     {
       double c, s;
       explicit Direction(double angle);
+      Direction(const double c, const double s) : c(c), s(s)
+      {
+      }
     };
-    /** Two forces [N] and a moment about the centroid [N m]. */
-    struct Resultants
-    {
-      double force[3]{}, viscous[3]{};
-    };
-    /** Force and moment of @p force on a block's nodes. */
+    /** Blocks that advance() brings through the lanes together. */
+    struct Pack;
+    /** Force [N] and moment about the centroid [N m] of @p force on a block's
+        nodes. */
     std::array<double, 3> resultant(const Block &block, const Direction &now,
                                     const dealii::Tensor<1, 2> *force) const;
-    /** Resultants of the forces on a block's nodes, which it clears. */
-    Resultants take_forces(const Block &block, const Direction &now,
-                           dealii::Tensor<1, 2> *force,
-                           dealii::Tensor<1, 2> *viscous) const;
     /** Sets the positions and velocities of a block's nodes. */
     void place_nodes(const Block &block, const RigidBlockState &rigid,
-                     const Direction &before, State<2> &state) const;
+                     const Direction &before, const Direction &after,
+                     State<2> &state) const;
 
     const Arm *arms_of(const Block &block) const
     {

@@ -72,7 +72,11 @@ namespace quoin
       return position.size();
     }
     /** Index of the edge of this @p number on all ranks. */
-    unsigned int local_edge(unsigned int number) const;
+    unsigned int local_edge(const unsigned int number) const
+    {
+      return edges.is_own(number) ? index_of_own[edges.own_place(number)]
+                                  : place_of(number);
+    }
     const Edge &operator[](const unsigned int edge) const
     {
       return local_edges[edge];
@@ -118,6 +122,9 @@ namespace quoin
   private:
     void bind_edges(const AlignedArray<ContactPair> &pairs);
     void bind_nodes();
+    unsigned int place_of(unsigned int number) const;
+    /** Index of an edge that may be none of those here, then n_edges(). */
+    unsigned int find_edge(unsigned int number) const;
 
     const NodeExchange &exchange;
     ContactEdges &edges;
@@ -132,6 +139,8 @@ namespace quoin
     std::vector<double> reference_lengths;  /**< of the local edges [m] */
     std::vector<double> edge_thickness;     /**< of the cells behind them [m] */
     std::vector<unsigned int> edge_numbers; /**< of the local edges */
+    std::vector<unsigned int> index_of_own; /**< of ContactEdges::own() */
+    std::vector<unsigned int> index_of_node; /**< compact, of local nodes */
     AlignedArray<dealii::Tensor<1, 2>> position, compact_velocity;
     AlignedArray<Edge> local_edges;
     AlignedArray<Links> edge_links;

@@ -208,6 +208,40 @@ TEST(NodeUpdate, ZeroFactorsAreUndamped)
   EXPECT_EQ(work.after, 0.);
 }
 
+TEST(NodeUpdate, NodesBesideEachOtherMoveAsOneByOne)
+{
+  // Without forces of viscous damping there is no array of them.
+  const DampingFactors factors{ 0.8, 0.5, 0.1, 0.15 };
+  for (const bool has_viscous : { true, false })
+  {
+    NodeSet<2> together(11), alone(11);
+    DampingWork sum;
+    const auto advance
+        = [&](NodeSet<2> &set, const unsigned int begin, const unsigned int end)
+    {
+      return advance_nodes_damped<true>(
+          begin, end, set.nodes.data(), set.velocity.data(), set.force.data(),
+          has_viscous ? set.viscous.data() : nullptr, set.mass.data(),
+          set.inverse_mass.data(), factors, 0.2);
+    };
+    const auto work = advance(together, 0, 11);
+    for (unsigned int i = 0; i < 11; ++i)
+      sum += advance(alone, i, i + 1);
+    for (unsigned int i = 0; i < 11; ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        EXPECT_NEAR(together.velocity[i][d], alone.velocity[i][d], 1e-15);
+        EXPECT_NEAR(together.nodes[i].u[d], alone.nodes[i].u[d], 1e-15);
+        EXPECT_EQ(together.force[i][d], 0.);
+        EXPECT_EQ(together.viscous[i][d] == 0., has_viscous);
+      }
+    EXPECT_NEAR(work.before, sum.before, 1e-14);
+    EXPECT_NEAR(work.after, sum.after, 1e-14);
+    EXPECT_NEAR(work.mass_power, sum.mass_power, 1e-14);
+    EXPECT_NEAR(work.kinetic_change, sum.kinetic_change, 1e-14);
+  }
+}
+
 TEST(NodeUpdate, ConstrainedNodesKeepTheirVelocity)
 {
   Nodes set(4);

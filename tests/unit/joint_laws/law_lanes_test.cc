@@ -381,3 +381,24 @@ TEST(LawLanes, ExponentialAndLogarithm)
   for (unsigned int i = 0; i < 8; ++i)
     EXPECT_NEAR(values[i], std::exp(at[i]), 5e-16 * std::exp(at[i]));
 }
+
+TEST(LawLanes, SineAndCosine)
+{
+  using F = LaneFunctions<8>;
+  for (double from = 1e-9; from < 1e7; from *= 3.7)
+  {
+    const double at[8] = { 0.,         from,        -from,      1.1 * from,
+                           1.3 * from, -1.7 * from, 2.1 * from, 3. * from };
+    double sine[8], cosine[8];
+    F::Value s, c;
+    F::sine_cosine(F::load(at), s, c);
+    F::store(sine, s);
+    F::store(cosine, c);
+    for (unsigned int i = 0; i < 8; ++i)
+    {
+      EXPECT_NEAR(sine[i], std::sin(at[i]),
+                  3e-16 * std::min(1., std::abs(at[i])));
+      EXPECT_NEAR(cosine[i], std::cos(at[i]), 3e-16);
+    }
+  }
+}
