@@ -564,11 +564,14 @@ namespace quoin
                      / (d >= dim ? size : 1.);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
-    balance.unbalanced = balance.beams_stand
-                             ? sums[0]
-                             : std::numeric_limits<double>::infinity();
-    balance.applied    = std::max(sums[1], least_applied);
-    balance.dragged    = sums[2];
+    // Corrections by a matrix that is singular may not be numbers.
+    const bool is_finite = std::isfinite(sums[0] + sums[1]);
+    balance.unbalanced   = balance.beams_stand && is_finite
+                               ? sums[0]
+                               : std::numeric_limits<double>::infinity();
+    balance.applied
+        = is_finite ? std::max(sums[1], least_applied) : least_applied;
+    balance.dragged = sums[2];
   }
 
   template <int dim>
