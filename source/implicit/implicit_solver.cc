@@ -495,7 +495,10 @@ namespace quoin
                                   configuration.load_time, ratio, last_share,
                                   double(linear_solver->n_iterations()) });
       if (!std::isfinite(ratio))
+      {
+        acting.check_finite(stage, state, advance.load_time);
         return Outcome::failed;
+      }
       ratios.push_back(ratio);
       if (iteration == 0)
       {
@@ -845,9 +848,6 @@ namespace quoin
   void ImplicitSolver<dim>::fail(const State<dim> &state, const double tried,
                                  const bool jumped) const
   {
-    acting.check_finite(stage, state, state.load_time);
-    acting.check_finite(stage, state,
-                        state.load_time + tried * own_steps.duration());
     const std::string where = worst_place(model, *dof_map, balance, set_names);
     std::ostringstream message;
     message << "no equilibrium was found beyond "
