@@ -207,7 +207,8 @@ namespace quoin
     {
       enter_shape(entries, boundary);
       entries.integer("Elements", boundary.n_elements, 0,
-                      "Number of elements, at most 20000 on all boundaries; 0: "
+                      "Number of elements of this boundary, at most 20000 on "
+                      "all boundaries together; 0: "
                       "from the element length [-]",
                       1000000);
       entries.nonnegative(

@@ -450,8 +450,8 @@ namespace quoin
       if (entries.reads_if(is_platen || is_motion || is_force))
         enter_component(entries, "Lateral", "free", load.lateral,
                         "Component along y of a model in three dimensions, in "
-                        "which 'Horizontal' is along x and 'Vertical' along z; "
-                        "it is given as these are.",
+                        "which 'Horizontal' is along x and 'Vertical' along z, "
+                        "given in the same way as 'Horizontal'.",
                         plain);
       if (entries.reads_if(is_platen))
         enter_component(
@@ -463,11 +463,11 @@ namespace quoin
       const std::string axes[] = { "x", "y" };
       for (const unsigned int d : { 0, 1 })
         if (entries.reads_if(is_platen))
-          enter_component(entries, "Rotation " + axes[d], "free",
-                          load.rotations[d],
-                          "Rotation of a platen in three dimensions about "
-                              + axes[d] + ", as 'Rotation' is given.",
-                          rotation_component);
+          enter_component(
+              entries, "Rotation " + axes[d], "free", load.rotations[d],
+              "Rotation of a platen in three dimensions about " + axes[d]
+                  + ", given in the same way as 'Rotation'.",
+              rotation_component);
       if (entries.reads_if(is_force))
         enter_component(
             entries, "Pressure", "free", load.pressure,

@@ -86,33 +86,37 @@ namespace quoin
         const auto row = section.numbers<2>(name);
         return dealii::Point<2>(row[0], row[1]);
       };
-      entries.other("Headwater", "",
-                    "With 'Pressure = uplift' level of the water at the heel, "
-                    "a function of time [m]",
-                    [&](const ParameterSection &section)
-                    { uplift.headwater = level(section, "Headwater"); });
+      entries.other(
+          "Headwater", "",
+          "Level of the water at the heel of a joint with 'Pressure = uplift', "
+          "a function of time [m]",
+          [&](const ParameterSection &section)
+          { uplift.headwater = level(section, "Headwater"); });
       entries.other("Tailwater", "",
-                    "Level of the water at the toe, a function of time; it "
-                    "may be that of the joint there [m]",
+                    "Level of the water at the toe of a joint with 'Pressure = "
+                    "uplift', a function of time; without water there it is "
+                    "the level of the toe itself [m]",
                     [&](const ParameterSection &section)
                     { uplift.tailwater = level(section, "Tailwater"); });
       entries.other("Heel", "",
-                    "Point x, y where the joint begins with the headwater [m]",
+                    "Point x, y where a joint with 'Pressure = uplift' begins, "
+                    "at the side of the headwater [m]",
                     [&](const ParameterSection &section)
                     { uplift.heel = point(section, "Heel"); });
       entries.other("Toe", "",
-                    "Point x, y where it ends with the tailwater [m]",
+                    "Point x, y where a joint with 'Pressure = uplift' ends, "
+                    "at the side of the tailwater [m]",
                     [&](const ParameterSection &section)
                     { uplift.toe = point(section, "Toe"); });
       entries.nonnegative("Drain distance", uplift.drain,
-                          "Distance of a line of drains from the heel; 0: "
-                          "there is none [m]");
+                          "Distance of a line of drains below a dam from the "
+                          "heel; 0: there are no drains [m]");
       entries.within("Drain efficiency", uplift.efficiency, 0., 1.,
-                     "Share by which the drains lower the level there, down "
-                     "to 'Drain level' with 1 [-]");
+                     "Fraction by which drains lower the water level at their "
+                     "line; with 1 it is 'Drain level' [-]");
       entries.other("Drain level", "tailwater",
-                    "Height at which the drains end, such as that of a "
-                    "gallery; tailwater: that [m]",
+                    "Height of the outlets of drains, such as that of a "
+                    "gallery; 'tailwater': the level 'Tailwater' [m]",
                     [&](const ParameterSection &section)
                     {
                       if (section.text("Drain level") != "tailwater")
@@ -120,8 +124,9 @@ namespace quoin
                     });
       entries.choice("In cracks", uplift.enters_cracks,
                      { { "given", false }, { "full head", true } },
-                     "Uplift where the joint opens from the heel on. given: as "
-                     "where it is closed; full head: the headwater, from the "
+                     "Uplift in the part of the joint that has opened from the "
+                     "heel on. given: the same as in a closed joint; full "
+                     "head: the headwater, from the "
                      "end of the crack on linear to the toe, or to the drains "
                      "if they are beyond it.");
       const ParameterSection *section = entries.read_section();

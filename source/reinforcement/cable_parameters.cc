@@ -34,7 +34,7 @@ namespace quoin
           { { "single", Pattern::single },
             { "row", Pattern::row },
             { "radial", Pattern::radial } },
-          "Where the bars are. single: one bar between two points; row: "
+          "Pattern of the bars. single: one bar between two points; row: "
           "'Number' parallel bars, each by 'Step' from the last one; radial: "
           "'Number' bars around 'Centre', that begin at 'Radius' and point "
           "outwards.");
@@ -44,26 +44,31 @@ namespace quoin
                         "Head of the bar, or of the first one of a row, x and "
                         "y: where the face plate is and the free length begins "
                         "[m]");
-        entries.numbers("To", places.to, "Far end of that bar, x and y [m]");
+        entries.numbers(
+            "To", places.to,
+            "Far end of the bar, or of the first one of a row, x and y [m]");
       }
       if (entries.reads_if(places.pattern == Pattern::row))
-        entries.numbers("Step", places.step,
-                        "From one bar of a row to the next, x and y [m]");
+        entries.numbers(
+            "Step", places.step,
+            "Distance from one bar of a row to the next, x and y [m]");
       if (entries.reads_if(places.pattern != Pattern::single))
         entries.integer("Number", places.number, 1,
-                        "Number of bars of a pattern [-]");
+                        "Number of bars of a row or of a radial pattern [-]");
       if (entries.reads_if(places.pattern == Pattern::radial))
       {
         entries.numbers("Centre", places.centre,
                         "Centre of a radial pattern, x and y [m]");
-        entries.nonnegative("Radius", places.radius,
-                            "Distance of the heads from the centre [m]");
+        entries.nonnegative(
+            "Radius", places.radius,
+            "Distance of the heads of a radial pattern from its centre [m]");
         entries.nonnegative("Length", places.length,
                             "Length of each bar of a radial pattern [m]");
-        entries.numbers("Angles", places.angles,
-                        "Directions of the first and the last bar, "
-                        "anticlockwise from x; a full turn, such as 0, 360, "
-                        "does not repeat the first one [deg]");
+        entries.numbers(
+            "Angles", places.angles,
+            "Directions of the first and the last bar of a radial pattern, "
+            "anticlockwise from x; a full turn, such as 0, 360, "
+            "does not repeat the first one [deg]");
       }
     }
 
@@ -125,7 +130,7 @@ namespace quoin
                           "Stiffness of the face plate at the head against the "
                           "rock, in compression; 0: no plate [N/m]");
       enter_limit(entries, "Plate strength", law.plate_strength,
-                  "Force at which the plate yields, or 'unlimited' [N]");
+                  "Force at which the face plate yields, or 'unlimited' [N]");
       entries.nonnegative("Anchor stiffness", law.anchor_stiffness,
                           "Stiffness of an anchor at the far end, such as an "
                           "expansion shell; 0: no anchor [N/m]");
@@ -140,12 +145,14 @@ namespace quoin
                           "Shear stiffness of a bar at each joint that it "
                           "crosses outside of its free length; 0: none [N/m]");
       enter_limit(entries, "Dowel strength", law.dowel_strength,
-                  "Shear force at which it yields there, or 'unlimited' [N]");
+                  "Shear force at which a bar yields at a joint that it "
+                  "crosses, or 'unlimited' [N]");
       entries.nonnegative("Dowel axial stiffness", law.dowel_axial_stiffness,
                           "Axial stiffness of local reinforcement at each "
                           "joint, beside that of bar and bond; 0: none [N/m]");
       enter_limit(entries, "Dowel axial strength", law.dowel_axial_strength,
-                  "Axial force at which it yields, or 'unlimited' [N]");
+                  "Axial force at which the local reinforcement at a joint "
+                  "yields, or 'unlimited' [N]");
       law.active_length = 0.1;
       entries.positive("Active length", law.active_length,
                        "Length of the bar across a joint that has no bond and "

@@ -41,8 +41,8 @@ namespace quoin
                    "Set of joints whose law acts between a liner and the "
                    "blocks, at the nodes of the blocks.");
       entries.text("Stage", beam.stage,
-                   "Stage at whose start it is placed, without stress in the "
-                   "present positions; empty: the first stage.");
+                   "Stage at whose start the beam is placed, without stress in "
+                   "the present positions; empty: the first stage.");
     }
 
     void enter_section(ParameterEntries &entries, BeamParameters &beam)
@@ -159,15 +159,18 @@ namespace quoin
                              "roller y: displacement along that axis alone.");
         for (const unsigned int d : { 0, 1 })
           function(word + " force " + "xy"[d], beam.forces[end][d],
-                   "Force at that end along " + std::string(1, "xy"[d])
-                       + " in stages from that which places the beam on, a "
+                   "Force at the " + std::string(end ? "end" : "start")
+                       + " of the beam along " + std::string(1, "xy"[d])
+                       + ", in stages from that which places the beam on: a "
                          "function of t (time in the stage) and T (total time) "
                          "[N]");
       }
       for (const unsigned int d : { 0, 1 })
         function(std::string("Line load ") + "xy"[d], beam.distributed[d],
-                 "Force by length along " + std::string(1, "xy"[d])
-                     + " beside the weight, as the forces at ends [N/m]");
+                 "Force on the beam by length along " + std::string(1, "xy"[d])
+                     + ", beside its weight, in stages from that which places "
+                       "the beam on: a function of t (time in the stage) and T "
+                       "(total time) [N/m]");
     }
 
     void enter(ParameterEntries &entries, BeamParameters &beam)

@@ -43,7 +43,7 @@ namespace quoin
                        { "head", WaterQuantity::head },
                        { "flow", WaterQuantity::flow },
                        { "outlet", WaterQuantity::outlet } },
-                     "What is given. pressure [Pa]; head: height y to which "
+                     "Given quantity. pressure [Pa]; head: height y to which "
                      "water would rise [m]; flow: volume that enters the "
                      "joints, in equal shares at all their ends on 'Boundary', "
                      "negative where it is taken out [m^3/s]; outlet: with "
@@ -75,9 +75,9 @@ namespace quoin
           { { "none", FlowKind::none },
             { "steady", FlowKind::steady },
             { "transient", FlowKind::transient } },
-          "Flow of water along the joints of 'Water joints'. none; steady: at "
-          "any time that of the present apertures; transient: with the water "
-          "that is stored in joints.");
+          "Flow of water along the joints of 'Water joints'. none: no flow; "
+          "steady: the flow in equilibrium with the present apertures at any "
+          "time; transient: with storage of water in the joints.");
       entries.positive("Viscosity", water.fluid.viscosity,
                        "Dynamic viscosity of the water [Pa s]");
       entries.nonnegative("Unit weight", water.fluid.unit_weight,

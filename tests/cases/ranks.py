@@ -3,6 +3,8 @@
 # Copyright (C) 2026 The quoin authors
 """The same answer on 1, 2, 3 and some on 4 ranks to 1e-10, some bitwise on a repeat.
 
+On 2 and on 3 ranks by turns, with --all on both.
+
 The five blocks of the patch test, loaded suddenly and undamped: deformable ones
 on their base, rigid ones flying freely. The sled: contacts between deformable
 and rigid blocks of different ranks, some of them joints at first, some of them
@@ -401,7 +403,15 @@ def compare_linear_solvers(scratch):
             for name, error in errors.items() if not error <= 1e-6]
 
 
-def compare(quoin, prm, sets, variant, scratch):
+def numbers_of_ranks(variant, every):
+    """Those that are compared with 1."""
+    if every or variant in RANKS:
+        return RANKS.get(variant, (2, 3))
+    on_two = variant in REPEATED or list(VARIANTS).index(variant) % 2 == 0
+    return (2,) if on_two else (3,)
+
+
+def compare(quoin, prm, sets, variant, scratch, every):
     """The largest difference from one rank, and the columns that differ."""
     def run(name, ranks):
         output = os.path.join(scratch, variant + " " + name)
@@ -410,7 +420,7 @@ def compare(quoin, prm, sets, variant, scratch):
 
     worst, different = 0.0, []
     one = tables(run("1", 1))
-    for ranks in RANKS.get(variant, (2, 3)):
+    for ranks in numbers_of_ranks(variant, every):
         errors = differences(one, tables(run(str(ranks), ranks)),
                              "%s, %d ranks" % (variant, ranks))
         worst = max(worst, max(errors.values()))
@@ -432,7 +442,8 @@ def compare(quoin, prm, sets, variant, scratch):
                 if first.read() != second.read():
                     raise Failure("%s, 2 ranks twice: %s is not bitwise the "
                                   "same" % (variant, name))
-    with open(os.path.join(scratch, variant + " 2", "summary.json")) as stream:
+    with open(os.path.join(scratch, "%s %d" % (variant, ranks),
+                           "summary.json")) as stream:
         searches = json.load(stream).get("contact searches")
     if searches is not None and searches < LEAST_SEARCHES.get(variant, 50):
         raise Failure("%s: contacts were searched %d times only, so that this "
@@ -441,14 +452,17 @@ def compare(quoin, prm, sets, variant, scratch):
 
 
 def body():
-    options = common.arguments(__doc__.splitlines()[0]).parse_args()
+    parser = common.arguments(__doc__.splitlines()[0])
+    parser.add_argument("--all", action="store_true",
+                        help="every variant on 2 and on 3 ranks")
+    options = parser.parse_args()
     results = common.begin(options, "ranks")
     worst, different = 0.0, []
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
         outcomes = common.in_parallel(
             lambda variant: compare(options.quoin, *VARIANTS[variant], variant,
-                                    scratch), VARIANTS)
+                                    scratch, options.all), VARIANTS)
         for variant, (error, columns) in zip(VARIANTS, outcomes):
             if variant not in LOOSE and variant not in ROUNDED:
                 worst = max(worst, error)

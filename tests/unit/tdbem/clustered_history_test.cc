@@ -90,14 +90,14 @@ TEST(ClusteredHistory, convolution_quadrature)
   for (const RayleighDamping &damping :
        { RayleighDamping{ 0., 0. }, RayleighDamping{ 0.3, 0.02 } })
   {
-    const ConvolutionQuadrature kernel(boundary, medium, 0.1, 250,
+    const ConvolutionQuadrature kernel(boundary, medium, 0.1, 160,
                                        Projection::galerkin, damping);
     ClusteredHistory::Options compression;
     compression.tolerance = 1e-6;
     compression.n_steps   = 1000;
     ClusteredHistory history(kernel, boundary, compression, MPI_COMM_SELF);
     DirectHistory direct(kernel);
-    const double error = difference(history, direct, kernel.size(), 250);
+    const double error = difference(history, direct, kernel.size(), 160);
     EXPECT_LT(error, 1e-6);
   }
 }
