@@ -110,15 +110,20 @@ namespace quoin
       for (unsigned int c = 0; c < dim - 1; ++c)
         F::interleave(faces.slip[c], slip[c]);
       F::interleave(all_of_face, there);
-      const bool is_full           = group.size == lanes;
-      const PointArrays<dim> all   = arrays.from(dim * group.first);
-      const PointArrays<dim> first = is_full ? all : pack.arrays();
+      const bool is_full  = group.size == lanes;
+      PointArrays<dim> at = arrays;
+      std::size_t first   = dim * group.first;
       if (!is_full)
-        copy_points(all, first, dim * group.size);
+      {
+        copy_points(arrays.from(first), pack.arrays(), dim * group.size);
+        at    = pack.arrays();
+        first = 0;
+      }
       for (unsigned int h = 0; h < dim; ++h)
       {
-        PointLanes<lanes, dim> points{};
-        points.arrays  = first.from(h * lanes);
+        PointLanes<lanes, dim> points;
+        points.arrays  = at;
+        points.first   = first + h * lanes;
         points.opening = opening[h];
         for (unsigned int c = 0; c < dim - 1; ++c)
           points.slip.component[c] = slip[c][h];
@@ -134,7 +139,7 @@ namespace quoin
           tau[c][h] = area * points.tau.component[c];
       }
       if (!is_full)
-        copy_points(first, all, dim * group.size);
+        copy_points(at, arrays.from(dim * group.first), dim * group.size);
       Value face_sigma[dim], face_tau[dim - 1][dim];
       F::take_apart(sigma, face_sigma);
       for (unsigned int c = 0; c < dim - 1; ++c)

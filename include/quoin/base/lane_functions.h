@@ -51,13 +51,27 @@ namespace quoin
     {
       Bytes bytes;
       std::memcpy(&bytes, from, sizeof(bytes));
-      return __builtin_convertvector(bytes, Bits);
+      // GCC 12 makes eight conversions of one vector without intrinsics.
+#ifdef __AVX512F__
+      if constexpr (lanes == 8)
+        return (Bits)_mm512_maskz_cvtepi8_epi64(
+            0xff, _mm_cvtsi64_si128((long long)bytes));
+      else
+#endif
+        return __builtin_convertvector(bytes, Bits);
     }
     static QUOIN_INLINE void store_bytes(std::uint8_t *to, const Bits &value,
                                          const Bits &mask)
     {
-      const Bytes bytes
-          = __builtin_convertvector(mask ? value : load_bytes(to), Bytes);
+      const Bits all = mask ? value : load_bytes(to);
+      Bytes bytes;
+#ifdef __AVX512F__
+      if constexpr (lanes == 8)
+        bytes = (Bytes)_mm_cvtsi128_si64(
+            _mm512_maskz_cvtepi64_epi8(0xff, (__m512i)all));
+      else
+#endif
+        bytes = __builtin_convertvector(all, Bytes);
       std::memcpy(to, &bytes, sizeof(bytes));
     }
 

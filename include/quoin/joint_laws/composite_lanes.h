@@ -34,12 +34,15 @@ namespace quoin
     QUOIN_INLINE Bits try_elastic(PointLanes<lanes, dim> &points) const
     {
       const PointArrays<dim> &at = points.arrays;
-      points.sigma               = law.normal_stiffness
-                     * (points.opening - F::load(at.plastic_opening));
+      points.sigma
+          = law.normal_stiffness
+            * (points.opening - F::load(points.of(at.plastic_opening)));
       points.tau
-          = law.shear_stiffness * (points.slip - Slips::load(at.plastic_slip));
-      points.elastic   = is_elastic(at, points.sigma, magnitude(points.tau),
-                                    F::load(at.internal[crack_opening]));
+          = law.shear_stiffness
+            * (points.slip - Slips::load(points.slips_of(at.plastic_slip)));
+      points.elastic
+          = is_elastic(points, points.sigma, magnitude(points.tau),
+                       F::load(points.of(at.internal[crack_opening])));
       const Bits state = points.load_state();
       return points.elastic
              & ((state == 0) | (state == elastic_state(points.sigma)));
@@ -52,7 +55,11 @@ namespace quoin
       const Bits failing = present & ~points.elastic;
       if (F::any(failing))
       {
-        fail(points, present, failing, weight, lost);
+        // Of a copy, so that points which do not fail stay in registers.
+        PointLanes<lanes, dim> all = points;
+        fail(all, present, failing, weight, lost);
+        points.sigma = all.sigma;
+        points.tau   = all.tau;
         return;
       }
       const Bits state = points.load_state();
@@ -90,29 +97,31 @@ namespace quoin
 
     /** See CompositeLaw::update_elastic(). @p tau: size of the shear traction,
         here and below. */
-    QUOIN_INLINE Bits is_elastic(const PointArrays<dim> &at, const Value &sigma,
-                                 const Value &tau,
+    QUOIN_INLINE Bits is_elastic(const PointLanes<lanes, dim> &points,
+                                 const Value &sigma, const Value &tau,
                                  const Value &crack_opening) const
     {
-      const Value bond_now = F::load(at.internal[bond]);
+      const Value bond_now = F::load(points.of(points.arrays.internal[bond]));
       const Bits below
           = (sigma <= law.tension * bond_now)
             & (tau <= law.cohesion * bond_now - sigma * friction_at(bond_now))
             & ~((sigma < 0.) & (crack_opening > 0.));
-      return below & within_cap(at, sigma, tau, below);
+      return below & within_cap(points, sigma, tau, below);
     }
 
     /** Whether tractions leave the cap as it was, for the points of @p asked.
      */
-    QUOIN_INLINE Bits within_cap(const PointArrays<dim> &at, const Value &sigma,
-                                 const Value &tau, const Bits &asked) const
+    QUOIN_INLINE Bits within_cap(const PointLanes<lanes, dim> &points,
+                                 const Value &sigma, const Value &tau,
+                                 const Bits &asked) const
     {
       const Value load = (law.cap.normal * sigma + law.cap.offset) * sigma
                          + law.cap.shear * tau * tau;
       const Bits is_far = load <= law.cap.lowest_load();
       if (!has_cap || !F::any(asked & ~is_far))
         return is_far;
-      const Value limit = cap_limit(F::load(at.internal[crushing]));
+      const Value limit
+          = cap_limit(F::load(points.of(points.arrays.internal[crushing])));
       return is_far | (load <= limit * limit);
     }
 
@@ -149,13 +158,13 @@ namespace quoin
       const PointArrays<dim> &at = points.arrays;
       const double kn = law.normal_stiffness, ks = law.shear_stiffness;
       const Value none{};
-      const Value sigma_old     = F::load(at.normal_traction);
-      const Slips tau_old       = Slips::load(at.shear_traction);
-      const Value bond_old      = F::load(at.internal[bond]);
-      const Value crack_old     = F::load(at.internal[crack_opening]);
-      const Bits intact         = points.load_state() == 0;
+      const Value sigma_old = F::load(points.of(at.normal_traction));
+      const Slips tau_old   = Slips::load(points.slips_of(at.shear_traction));
+      const Value bond_old  = F::load(points.of(at.internal[bond]));
+      const Value crack_old = F::load(points.of(at.internal[crack_opening]));
+      const Bits intact     = points.load_state() == 0;
       const Value opening_trial = points.opening;
-      Value plastic_opening     = F::load(at.plastic_opening);
+      Value plastic_opening     = F::load(points.of(at.plastic_opening));
       Value sigma               = points.sigma;
       const Slips tau           = points.tau;
       const Value size          = magnitude(tau);
@@ -173,11 +182,12 @@ namespace quoin
                                                     : plastic_opening - closed)
                               : plastic_opening;
         sigma = closes ? kn * (opening_trial - plastic_opening) : sigma;
-        sticks |= closes & is_elastic(at, sigma, size, crack_left);
+        sticks |= closes & is_elastic(points, sigma, size, crack_left);
       }
 
       const Slips direction = direction_of(tau, size);
-      const Flow flow = find_flow(at, present & ~sticks, sigma, size, bond_old);
+      const Flow flow
+          = find_flow(points, present & ~sticks, sigma, size, bond_old);
       const Bits flows = flow.found;
       const Bits done  = present & (sticks | flows);
 
@@ -208,12 +218,14 @@ namespace quoin
       points.tau   = tau_new;
       points.store_tractions(done);
       points.store_state(state, done);
-      F::store(at.plastic_opening,
+      F::store(points.of(at.plastic_opening),
                flows ? opening_trial - sigma_new / kn : plastic_opening,
                done & (closes | flows));
-      (points.slip - tau_new / ks).store(at.plastic_slip, flows);
-      F::store(at.internal[bond], flow.bond, flows);
-      F::store(at.internal[crack_opening], crack_new, done & (closes | flows));
+      (points.slip - tau_new / ks)
+          .store(points.slips_of(at.plastic_slip), flows);
+      F::store(points.of(at.internal[bond]), flow.bond, flows);
+      F::store(points.of(at.internal[crack_opening]), crack_new,
+               done & (closes | flows));
 
       const unsigned int rest = F::set_lanes(present & ~done);
       for (int l = 0; l < lanes && rest >> l != 0; ++l)
@@ -223,9 +235,9 @@ namespace quoin
 
     /** The flow from trial tractions of the points of @p asked, where there is
         no crushing, no dilation and no corner. */
-    QUOIN_INLINE Flow find_flow(const PointArrays<dim> &at, const Bits &asked,
-                                const Value &sigma, const Value &tau,
-                                const Value &bond_start) const
+    QUOIN_INLINE Flow find_flow(const PointLanes<lanes, dim> &points,
+                                const Bits &asked, const Value &sigma,
+                                const Value &tau, const Value &bond_start) const
     {
       const Value strength
           = law.cohesion * bond_start - sigma * friction_at(bond_start);
@@ -236,9 +248,9 @@ namespace quoin
         return flow;
       const Bits slides = asked & slips & ~opens;
       if (F::any(slides))
-        slide(at, slides, sigma, tau, bond_start, flow);
+        slide(points, slides, sigma, tau, bond_start, flow);
       if (F::any(asked & opens))
-        iterate(at, asked & opens, slips, sigma, tau, bond_start, flow);
+        iterate(points, asked & opens, slips, sigma, tau, bond_start, flow);
       return flow;
     }
 
@@ -249,9 +261,10 @@ namespace quoin
     }
 
     /** See CompositeReturnMap::slide(). */
-    QUOIN_INLINE void slide(const PointArrays<dim> &at, const Bits &asked,
-                            const Value &sigma, const Value &tau,
-                            const Value &bond_start, Flow &flow) const
+    QUOIN_INLINE void slide(const PointLanes<lanes, dim> &points,
+                            const Bits &asked, const Value &sigma,
+                            const Value &tau, const Value &bond_start,
+                            Flow &flow) const
     {
       const double ks   = law.shear_stiffness;
       const Value most  = tolerance(sigma);
@@ -280,7 +293,7 @@ namespace quoin
       }
       const Value left = tau - ks * slip;
       found &= sigma - law.tension * bond_now <= most;
-      found &= within_cap(at, sigma, left, found);
+      found &= within_cap(points, sigma, left, found);
       flow.tau  = found ? left : flow.tau;
       flow.slip = found ? slip : flow.slip;
       flow.bond = found ? bond_now : flow.bond;
@@ -288,10 +301,10 @@ namespace quoin
     }
 
     /** See CompositeReturnMap::iterate(), of points that open. */
-    QUOIN_INLINE void iterate(const PointArrays<dim> &at, const Bits &asked,
-                              const Bits &slips, const Value &sigma_trial,
-                              const Value &tau_trial, const Value &bond_start,
-                              Flow &flow) const
+    QUOIN_INLINE void iterate(const PointLanes<lanes, dim> &points,
+                              const Bits &asked, const Bits &slips,
+                              const Value &sigma_trial, const Value &tau_trial,
+                              const Value &bond_start, Flow &flow) const
     {
       const double kn = law.normal_stiffness, ks = law.shear_stiffness;
       const double a = opening_softening, b = slip_softening;
@@ -341,7 +354,7 @@ namespace quoin
         sigma = active ? sigma_next : sigma;
         tau   = active ? tau_next : tau;
       }
-      found &= within_cap(at, sigma, tau, found);
+      found &= within_cap(points, sigma, tau, found);
       flow.sigma   = found ? sigma : flow.sigma;
       flow.tau     = found ? tau : flow.tau;
       flow.opening = found ? opening : flow.opening;

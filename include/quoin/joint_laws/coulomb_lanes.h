@@ -35,10 +35,12 @@ namespace quoin
       const Value friction
           = intact ? none + law.peak.friction : none + law.residual.friction;
 
-      points.sigma = law.normal_stiffness
-                     * (points.opening - F::load(at.plastic_opening));
+      points.sigma
+          = law.normal_stiffness
+            * (points.opening - F::load(points.of(at.plastic_opening)));
       points.tau
-          = law.shear_stiffness * (points.slip - Slips::load(at.plastic_slip));
+          = law.shear_stiffness
+            * (points.slip - Slips::load(points.slips_of(at.plastic_slip)));
       points.elastic = (points.sigma <= tension)
                        & (magnitude(points.tau) <= F::maximum(
                               none, cohesion - points.sigma * friction));
@@ -59,10 +61,11 @@ namespace quoin
       Bits state         = intact ? none_of_state : fill(JointState::slipped);
       if (F::any(failing))
       {
-        const Value sigma_old       = F::load(at.normal_traction);
-        const Slips tau_old         = Slips::load(at.shear_traction);
-        const Slips plastic_slip    = Slips::load(at.plastic_slip);
-        const Value plastic_opening = F::load(at.plastic_opening);
+        const Value sigma_old = F::load(points.of(at.normal_traction));
+        const Slips tau_old   = Slips::load(points.slips_of(at.shear_traction));
+        const Slips plastic_slip
+            = Slips::load(points.slips_of(at.plastic_slip));
+        const Value plastic_opening = F::load(points.of(at.plastic_opening));
         const Value sigma           = points.sigma;
         const Slips tau             = points.tau;
         const Bits open             = sigma > tension;
@@ -106,8 +109,8 @@ namespace quoin
         points.tau   = Slips::choose(failing,
                                      Slips::choose(open, Slips{}, tau_slid), tau);
         Slips::choose(open, points.slip, slip_slid)
-            .store(at.plastic_slip, failing);
-        F::store(at.plastic_opening, opening_slid, failing & ~open);
+            .store(points.slips_of(at.plastic_slip), failing);
+        F::store(points.of(at.plastic_opening), opening_slid, failing & ~open);
         state = failing ? (open ? fill(JointState::open)
                                 : fill(JointState::slipping))
                         : state;

@@ -18,32 +18,44 @@ namespace quoin
     using Bits  = typename F::Bits;
     using Slips = SlipLanes<lanes, dim>;
 
-    PointArrays<dim> arrays; /**< the first point's entries */
+    PointArrays<dim> arrays; /**< the history that has the points */
+    std::size_t first = 0;   /**< index of the first of them there */
     Value opening;           /**< where they are brought to [m] */
     Slips slip;              /**< where they are brought to [m] */
     Value sigma;             /**< their normal tractions there [Pa] */
     Slips tau;               /**< their shear tractions there [Pa] */
     Bits elastic;            /**< they neither fail, slip nor are open */
 
+    /** Their entries in @p array of the history. */
+    QUOIN_INLINE double *of(double *array) const
+    {
+      return array + first;
+    }
+    /** The same in an array of slips or shear tractions. */
+    QUOIN_INLINE double *slips_of(double *array) const
+    {
+      return array + (dim - 1) * first;
+    }
+
     QUOIN_INLINE Bits load_state() const
     {
       return F::load_bytes(
-          reinterpret_cast<const std::uint8_t *>(arrays.state));
+          reinterpret_cast<const std::uint8_t *>(arrays.state + first));
     }
     QUOIN_INLINE void store_state(const Bits &state, const Bits &mask) const
     {
-      F::store_bytes(reinterpret_cast<std::uint8_t *>(arrays.state), state,
-                     mask);
+      F::store_bytes(reinterpret_cast<std::uint8_t *>(arrays.state + first),
+                     state, mask);
     }
     QUOIN_INLINE void store_tractions() const
     {
-      F::store(arrays.normal_traction, sigma);
-      tau.store(arrays.shear_traction);
+      F::store(of(arrays.normal_traction), sigma);
+      tau.store(slips_of(arrays.shear_traction));
     }
     QUOIN_INLINE void store_tractions(const Bits &mask) const
     {
-      F::store(arrays.normal_traction, sigma, mask);
-      tau.store(arrays.shear_traction, mask);
+      F::store(of(arrays.normal_traction), sigma, mask);
+      tau.store(slips_of(arrays.shear_traction), mask);
     }
   };
 
@@ -60,7 +72,7 @@ namespace quoin
   void update_point(const Law &law, PointLanes<lanes, dim> &points, const int l,
                     const double weight, DissipationLanes<lanes> &lost)
   {
-    auto point           = read_point(law, points.arrays, l);
+    auto point           = read_point(law, points.arrays, points.first + l);
     const double opening = points.opening[l];
     const Slip<dim> slip = points.slip.at(l);
     if (!points.elastic[l])
@@ -72,7 +84,7 @@ namespace quoin
     }
     else
       law.update_elastic(point, opening, slip);
-    write_point(point, points.arrays, l);
+    write_point(point, points.arrays, points.first + l);
     points.sigma[l] = point.normal_traction;
     points.tau.set(l, point.shear_traction);
   }
@@ -105,7 +117,7 @@ namespace quoin
       points.elastic = Bits{};
       for (int l = 0; l < lanes; ++l)
       {
-        auto point       = read_point(law, points.arrays, l);
+        auto point       = read_point(law, points.arrays, points.first + l);
         const auto state = point.state;
         if (!law.update_elastic(point, points.opening[l], points.slip.at(l)))
           continue;
