@@ -30,7 +30,7 @@ namespace quoin
 
     /** Motion against each other for which pairs are found to be distant, at
         first by the skin; then such that it suffices for these steps. */
-    constexpr double first_distance           = 0.125;
+    constexpr double first_distance          = 0.125;
     constexpr unsigned int shortest_distance = 8, longest_distance = 32;
 
     constexpr double infinity = std::numeric_limits<double>::infinity();

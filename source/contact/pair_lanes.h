@@ -145,10 +145,11 @@ namespace quoin
       // which is at most pi/2 d/l. Their mean direction turns by half of it.
       const Value turn
           = M_PI_2 * motion * (a.inverse_length + b.inverse_length);
-      const Value c     = cosine(a, b);
-      const Value scale = 1. / F::square_root(F::maximum(fill(1.), 2. + 2. * c));
-      const Value tx    = scale * (a.tangent[0] - b.tangent[0]);
-      const Value ty    = scale * (a.tangent[1] - b.tangent[1]);
+      const Value c = cosine(a, b);
+      const Value scale
+          = 1. / F::square_root(F::maximum(fill(1.), 2. + 2. * c));
+      const Value tx     = scale * (a.tangent[0] - b.tangent[0]);
+      const Value ty     = scale * (a.tangent[1] - b.tangent[1]);
       const Value margin = motion + 1e-8 * (a.length + b.length);
       // How far a node is from the one that it passes as the overlap begins.
       const auto is_clear = [&](const Value &x, const Value &y)
@@ -162,7 +163,7 @@ namespace quoin
           = is_clear(x + b.length * b.tangent[0] - a.length * a.tangent[0],
                      y + b.length * b.tangent[1] - a.length * a.tangent[1]);
       const Bits has_direction = (turn < 1.) & (c > -0.5);
-      const Bits is_averted    = (turn < 1.) & (c + turn < 0.999 * least_cosine);
+      const Bits is_averted = (turn < 1.) & (c + turn < 0.999 * least_cosine);
       return is_averted | (has_direction & (is_before | is_behind));
     }
 

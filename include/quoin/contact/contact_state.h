@@ -68,9 +68,9 @@ namespace quoin
   /** What a step has to know of a pair before it takes any notice. */
   enum class PairMark : std::uint8_t
   {
-    unseen = 0, /**< not active, and not seen apart */
-    open   = 1, /**< not active, and seen apart */
-    active = 2,
+    unseen  = 0, /**< not active, and not seen apart */
+    open    = 1, /**< not active, and seen apart */
+    active  = 2,
     distant = 3 /**< not active, and will not overlap for the time being */
   };
 
