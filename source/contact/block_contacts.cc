@@ -505,6 +505,10 @@ namespace quoin
       {
         idle_pairs[n_idle] = pair[l];
         n_idle += overlap >> l & 1;
+        // Their openings will be written.
+        if (overlap >> l & 1)
+          for (const ContactPoint &point : contacts.pairs[pair[l]].points)
+            __builtin_prefetch(&point, 1);
         PairMark &mark = contacts.marks[pair[l]];
         if (mark == PairMark::open && (~overlap >> l & 1))
         {
