@@ -352,12 +352,8 @@ namespace quoin
     }
     const auto values = amplitude(time);
     for (unsigned int i = 0; i < nodes.size(); ++i)
-    {
-      const double weight        = weights[i];
-      dealii::Tensor<1, dim> &at = force[nodes[i]];
       for (unsigned int d = 0; d < dim; ++d)
-        at[d] += values[d] * weight;
-    }
+        force[nodes[i]][d] += values[d] * weights[i];
     for (unsigned int i = 0; i < inward.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         force[nodes[i]][d] += values[3] * inward[i][d];
