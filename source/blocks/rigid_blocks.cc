@@ -180,56 +180,28 @@ namespace quoin
     }
   } // namespace
 
-  namespace
+  inline DEAL_II_ALWAYS_INLINE void
+  RigidBlocks::place_nodes(const Block &block, const RigidBlockState &rigid,
+                           const Direction &before, const Direction &after,
+                           State<2> &state) const
   {
-    /** 1 - cos without cancellation. */
-    template <int lanes>
-    QUOIN_INLINE typename Lanes<lanes>::Value
-    versine(const typename Lanes<lanes>::Value &sine,
-            const typename Lanes<lanes>::Value &cosine)
+    // 1 - cos without cancellation.
+    const double versine
+        = after.c > 0. ? after.s * after.s / (1. + after.c) : 1. - after.c;
+    // Velocities follow from the mean of the arms before and after.
+    const double half = 0.5 * rigid.velocity[2];
+    const double c    = half * (before.c + after.c);
+    const double s    = half * (before.s + after.s);
+    const Two way     = two(rigid.displacement[0]);
+    const Two speed   = two(rigid.velocity[0]);
+    const Two sine = { -after.s, after.s }, cosine = { -c, c };
+    const Arm *arm = arms_of(block);
+    for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
     {
-      const typename Lanes<lanes>::Value small = sine * sine / (1. + cosine);
-      return cosine > 0. ? small : 1. - cosine;
+      const Two r = two(arm->x), across = swap(r);
+      two(state.nodes[i].u[0])  = way - versine * r + sine * across;
+      two(state.velocity[i][0]) = speed - s * r + cosine * across;
     }
-
-    /** What places the nodes of a block with these @p arms: its rotation by
-        1 - cos and sin, and the sums of cos and of sin before and after. */
-    struct Placing
-    {
-      double versine, sine, cosine_sum, sine_sum;
-
-      template <typename Arm>
-      QUOIN_INLINE void operator()(const Arm *arm, const unsigned int begin,
-                                   const unsigned int end,
-                                   const RigidBlockState &rigid,
-                                   State<2> &state) const
-      {
-        // Velocities follow from the mean of the arms before and after.
-        const double half     = 0.5 * rigid.velocity[2];
-        const double c        = half * cosine_sum;
-        const double s        = half * sine_sum;
-        const Two way         = two(rigid.displacement[0]);
-        const Two speed       = two(rigid.velocity[0]);
-        const Two across_sine = { -sine, sine }, across_cosine = { -c, c };
-        for (unsigned int i = begin; i < end; ++i, ++arm)
-        {
-          const Two r = two(arm->x), across = swap(r);
-          two(state.nodes[i].u[0])  = way - versine * r + across_sine * across;
-          two(state.velocity[i][0]) = speed - s * r + across_cosine * across;
-        }
-      }
-    };
-  } // namespace
-
-  inline void RigidBlocks::place_nodes(const Block &block,
-                                       const RigidBlockState &rigid,
-                                       const Direction &before,
-                                       const Direction &after,
-                                       State<2> &state) const
-  {
-    const Placing place{ versine<1>(after.s, after.c), after.s,
-                         before.c + after.c, before.s + after.s };
-    place(arms_of(block), block.begin, block.end, rigid, state);
   }
 
   inline DEAL_II_ALWAYS_INLINE std::array<double, 3>
@@ -361,8 +333,6 @@ namespace quoin
       }
       pack.move(step, sums);
       turn(1);
-      alignas(64) double versines[lanes];
-      F::store(versines, versine<lanes>(F::load(sine[1]), F::load(cosine[1])));
       for (unsigned int l = 0; l < n; ++l)
       {
         const unsigned int b = first + l;
@@ -372,11 +342,8 @@ namespace quoin
           rigid[b].velocity[d] = pack.velocity[d][l];
         rigid[b].displacement += step.dt * vector_at(rigid[b].velocity, 0);
         rigid[b].rotation = pack.rotation[l];
-        const Placing place{ versines[l], sine[1][l],
-                             cosine[0][l] + cosine[1][l],
-                             sine[0][l] + sine[1][l] };
-        place(arms_of(blocks[b]), blocks[b].begin, blocks[b].end, rigid[b],
-              state);
+        place_nodes(blocks[b], rigid[b], { cosine[0][l], sine[0][l] },
+                    { cosine[1][l], sine[1][l] }, state);
       }
     }
     RigidBlockWork work;

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <sstream>
@@ -47,42 +46,6 @@ namespace quoin
       return ((sigma == 0.) & (opening < infinity))
                  ? opening - plastic_opening
                  : typename Lanes<lanes>::Value{};
-    }
-
-    static_assert(offsetof(ContactPair, shift) == 2 * sizeof(double)
-                      && offsetof(ContactPair, shift_start)
-                             == 3 * sizeof(double)
-                      && offsetof(ContactPair, was_joint) > sizeof(double)
-                      && offsetof(ContactPair, points) >= 4 * sizeof(double),
-                  "they are loaded as they lie in memory");
-    /** What the geometry of the pairs @p pair depends on, without anchors. */
-    template <int lanes>
-    QUOIN_INLINE PairLanes<lanes> pairs_at(const ContactPair *pairs,
-                                           const std::uint32_t *pair)
-    {
-      PairLanes<lanes> result{};
-      if constexpr (lanes == 1)
-      {
-        result.was_joint   = pairs[*pair].was_joint != 0;
-        result.shift       = pairs[*pair].shift;
-        result.shift_start = pairs[*pair].shift_start;
-      }
-      else
-      {
-        using Bits = typename Lanes<lanes>::Bits;
-        typename Lanes<lanes>::Value row[4];
-        Lanes<lanes>::load_four(
-            [&](const int l)
-            { return reinterpret_cast<const double *>(&pairs[pair[l]]); },
-            row);
-        constexpr std::int64_t byte
-            = std::int64_t(0xff)
-              << 8 * (offsetof(ContactPair, was_joint) - sizeof(double));
-        result.was_joint   = ((Bits)row[1] & byte) != 0;
-        result.shift       = row[2];
-        result.shift_start = row[3];
-      }
-      return result;
     }
 
     /** The largest square, x, -x, y and -y among vectors on all ranks. */
@@ -505,10 +468,6 @@ namespace quoin
       {
         idle_pairs[n_idle] = pair[l];
         n_idle += overlap >> l & 1;
-        // Their openings will be written.
-        if (overlap >> l & 1)
-          for (const ContactPoint &point : contacts.pairs[pair[l]].points)
-            __builtin_prefetch(&point, 1);
         PairMark &mark = contacts.marks[pair[l]];
         if (mark == PairMark::open && (~overlap >> l & 1))
         {
@@ -654,7 +613,12 @@ namespace quoin
         for (unsigned int line = 0; line < sizeof(ContactPair); line += 64)
           __builtin_prefetch(
               reinterpret_cast<const char *>(pairs + active[j]) + line, 1);
-      PairLanes<lanes> at   = pairs_at<lanes>(pairs, pair);
+      PairLanes<lanes> at;
+      L::load(reinterpret_cast<const char *>(&pairs->shift),
+              sizeof(ContactPair), pair, at.shift, at.shift_start);
+      at.was_joint = F::each([&](const int l) -> double
+                             { return pairs[pair[l]].was_joint; })
+                     != 0.;
       at.active             = none == none;
       const Bits is_general = at.was_joint == Bits{};
       Value share, depth_limit;
@@ -664,11 +628,11 @@ namespace quoin
       pack.load(pairs, pair, 0);
       at.anchor = pack.anchor;
       PairGeometry<lanes> g;
-      Bits present = moving.find_geometry(at, ea, a, eb, b, g);
-      if (n < lanes)
-        present
-            = present & (F::each([](const int l) -> double { return l; }) < n);
-      const unsigned int found = F::set_lanes(present);
+      const unsigned int found
+          = F::set_lanes(moving.find_geometry(at, ea, a, eb, b, g)) & all;
+      const Bits present
+          = F::each([&](const int l) { return found >> l & 1 ? 1. : 0.; })
+            != 0.;
       TractionLanes<lanes> forces, viscous;
       for (unsigned int k = 0; k < 2 && found != 0; ++k)
       {
