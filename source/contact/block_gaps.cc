@@ -46,14 +46,15 @@ namespace quoin
     const auto ends     = edges_within_reach(nodes, edges, state.nodes.data(),
                                              left_out, within);
     std::map<BlockPair, double> nearest;
-    for (const auto &[i, j] : near_edges(edges, ends, within))
+    for (const NearEdges &pair : near_edges(edges, ends, within))
     {
+      const auto &[i, j] = pair.places;
       const BlockPair blocks
           = std::minmax(edges[ends[i].edge].block, edges[ends[j].edge].block);
       if (blocks.first == blocks.second)
         continue;
       double &least = nearest.emplace(blocks, within).first->second;
-      least         = std::min(least, motion_to_touch(ends[i], ends[j], 0.));
+      least         = std::min(least, pair.motion_to_touch(0.));
     }
     for (const auto &joined : nodes.table().joined)
       nearest[{ joined[0], joined[1] }] = 0.;

@@ -4,13 +4,8 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/contact/contact_search.h>
 
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -19,13 +14,6 @@ namespace quoin
 {
   namespace
   {
-    namespace bg  = boost::geometry;
-    namespace bgi = boost::geometry::index;
-    using Point   = bg::model::d2::point_xy<double>;
-    using Box     = bg::model::box<Point>;
-    using Entry   = std::pair<Box, unsigned int>;
-    using Tree    = bgi::rtree<Entry, bgi::linear<16>>;
-
     bool cross(const EdgeEnds &a, const EdgeEnds &b)
     {
       const auto side = [](const EdgeEnds &s, const double x, const double y) {
@@ -60,22 +48,39 @@ namespace quoin
                      square_distance(a, 0, b), square_distance(a, 1, b) }));
     }
 
+    /** The way along an edge [m]. */
+    struct EdgeWay
+    {
+      double x, y, length;
+
+      explicit EdgeWay(const EdgeEnds &edge)
+        : x(edge.x[1] - edge.x[0]), y(edge.y[1] - edge.y[0]),
+          length(std::sqrt(x * x + y * y))
+      {
+      }
+    };
+
     /** By how much nodes have to move against each other before two edges turn
-        until a contact between them has an area [m]. */
-    double motion_to_face(const EdgeEnds &a, const EdgeEnds &b)
+        until a contact between them has an area [m]; if it is more than
+        @p enough, infinity perhaps. */
+    double motion_to_face(const EdgeWay &a, const EdgeWay &b,
+                          const double enough)
     {
       static const double least_angle = std::asin(least_contact_cosine);
-      const double ax = a.x[1] - a.x[0], ay = a.y[1] - a.y[0];
-      const double bx = b.x[1] - b.x[0], by = b.y[1] - b.y[0];
-      const double product = ax * bx + ay * by;
-      const double la      = std::sqrt(ax * ax + ay * ay);
-      const double lb      = std::sqrt(bx * bx + by * by);
-      if (product <= -least_contact_cosine * la * lb)
+      const double product            = a.x * b.x + a.y * b.y;
+      const double square             = a.length * b.length;
+      if (product <= -least_contact_cosine * square)
         return 0.;
       // Ends that move by d against each other turn an edge of length l by
-      // asin(d/l), which is at most pi/2 d/l.
-      return (std::asin(std::min(1., product / (la * lb))) + least_angle)
-             * M_2_PI * la * lb / (la + lb);
+      // asin(d/l), which is at most pi/2 d/l. An angle is not less than its
+      // sine.
+      const double sum = a.length + b.length;
+      if (product > 0.
+          && (product + least_angle * square) * M_2_PI
+                 > 1.000001 * enough * sum)
+        return std::numeric_limits<double>::infinity();
+      return (std::asin(std::min(1., product / square)) + least_angle) * M_2_PI
+             * a.length * b.length / sum;
     }
 
     /** xmin, ymin, xmax, ymax [m]; far inside out: empty. */
@@ -103,11 +108,93 @@ namespace quoin
       return true;
     }
 
-    Box box_of(const Bounds &bounds, const double margin)
+    void enclose(const Bounds &inner, Bounds &bounds)
     {
-      return { Point(bounds[0] - margin, bounds[1] - margin),
-               Point(bounds[2] + margin, bounds[3] + margin) };
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        bounds[d]       = std::min(bounds[d], inner[d]);
+        bounds[dim + d] = std::max(bounds[dim + d], inner[dim + d]);
+      }
     }
+
+    /** Boxes in boxes of some of them that are near each other, those in larger
+        ones, and so on. */
+    class BoxTree
+    {
+    public:
+      explicit BoxTree(const std::vector<Bounds> &boxes)
+      {
+        // In strips of about as many groups as there are strips.
+        struct Place
+        {
+          double x, y;
+          unsigned int box;
+        };
+        std::vector<Place> places;
+        places.reserve(boxes.size());
+        for (unsigned int i = 0; i < boxes.size(); ++i)
+          places.push_back(
+              { boxes[i][0] + boxes[i][2], boxes[i][1] + boxes[i][3], i });
+        std::sort(places.begin(), places.end(),
+                  [](const Place &a, const Place &b) { return a.x < b.x; });
+        const std::size_t n_groups = (boxes.size() + group - 1) / group;
+        const std::size_t strip
+            = group * static_cast<std::size_t>(std::ceil(std::sqrt(n_groups)));
+        for (std::size_t first = 0; first < places.size(); first += strip)
+          std::sort(places.begin() + first,
+                    places.begin() + std::min(first + strip, places.size()),
+                    [](const Place &a, const Place &b) { return a.y < b.y; });
+        order.reserve(boxes.size());
+        levels.emplace_back().reserve(boxes.size());
+        for (const Place &place : places)
+        {
+          order.push_back(place.box);
+          levels[0].push_back(boxes[place.box]);
+        }
+        while (levels.back().size() > group)
+        {
+          const std::vector<Bounds> &finer = levels.back();
+          std::vector<Bounds> coarser((finer.size() + group - 1) / group,
+                                      nothing);
+          for (std::size_t i = 0; i < finer.size(); ++i)
+            enclose(finer[i], coarser[i / group]);
+          levels.push_back(std::move(coarser));
+        }
+      }
+
+      /** Calls @p visit with each box that is nearer to @p bounds than @p skin,
+          in no order, until that returns true; returns whether it did. */
+      template <typename Visit>
+      bool find_near(const Bounds &bounds, const double skin,
+                     const Visit &visit) const
+      {
+        return find_near(bounds, skin, visit, levels.size() - 1, 0,
+                         levels.back().size());
+      }
+
+    private:
+      template <typename Visit>
+      bool find_near(const Bounds &bounds, const double skin,
+                     const Visit &visit, const std::size_t level,
+                     const std::size_t begin, const std::size_t end) const
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          if (!are_near(bounds, levels[level][i], skin))
+            continue;
+          if (level == 0 ? visit(order[i])
+                         : find_near(bounds, skin, visit, level - 1, group * i,
+                                     std::min(group * (i + 1),
+                                              levels[level - 1].size())))
+            return true;
+        }
+        return false;
+      }
+
+      static constexpr std::size_t group = 8;
+      std::vector<unsigned int> order; /**< of the boxes of the finest level */
+      std::vector<std::vector<Bounds>> levels; /**< the finest one first */
+    };
 
     /** Number of consecutive edges that have a common box. */
     constexpr unsigned int edges_of_box = 16;
@@ -158,18 +245,7 @@ namespace quoin
                                     const std::vector<EdgeEnds> &ends,
                                     const double skin)
     {
-      Bounds all = nothing;
-      std::vector<Entry> entries;
-      for (unsigned int i = 0; i < boxes.size(); ++i)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          all[d]     = std::min(all[d], boxes[i][d]);
-          all[2 + d] = std::max(all[2 + d], boxes[i][2 + d]);
-        }
-        entries.emplace_back(box_of(boxes[i], skin), i);
-      }
-      const Tree tree(entries);
+      const BoxTree tree(boxes);
       std::vector<unsigned int> found;
       const auto add = [&](const unsigned int edge)
       {
@@ -180,8 +256,8 @@ namespace quoin
       {
         Bounds bounds = nothing;
         enclose(edge, bounds);
-        if (!are_near(bounds, all, skin)
-            || tree.qbegin(bgi::intersects(box_of(bounds, 0.))) == tree.qend())
+        if (!tree.find_near(bounds, skin,
+                            [](const unsigned int) { return true; }))
           continue;
         add(edge.edge);
         add(edges[edge.edge].previous);
@@ -226,12 +302,6 @@ namespace quoin
       return result;
     }
   } // namespace
-
-  double motion_to_touch(const EdgeEnds &a, const EdgeEnds &b,
-                         const double apart)
-  {
-    return std::max(motion_to_face(a, b), distance(a, b) - apart);
-  }
 
   std::vector<EdgeEnds>
   edges_within_reach(const NodeMap<2> &node_map, ContactEdges &edges,
@@ -305,52 +375,67 @@ namespace quoin
     }
   } // namespace
 
-  std::vector<std::array<unsigned int, 2>>
-  near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
-             const double skin)
+  std::vector<NearEdges> near_edges(const ContactEdges &edges,
+                                    const std::vector<EdgeEnds> &ends,
+                                    const double skin)
   {
     std::vector<Bounds> bounds(ends.size(), nothing);
     std::vector<std::array<unsigned int, 2>> nodes;
+    std::vector<EdgeWay> ways;
     nodes.reserve(ends.size());
+    ways.reserve(ends.size());
     for (unsigned int i = 0; i < ends.size(); ++i)
     {
       enclose(ends[i], bounds[i]);
       nodes.push_back(edges[ends[i].edge].nodes);
+      ways.emplace_back(ends[i]);
     }
     const std::vector<Chain> chains = chains_of(edges, ends);
-    std::vector<Entry> entries;
-    for (unsigned int c = 0; c < chains.size(); ++c)
-      entries.emplace_back(box_of(chains[c].bounds, 0.), c);
-    const Tree tree(entries);
-
-    std::vector<std::array<unsigned int, 2>> pairs;
-    std::vector<Entry> found;
+    std::vector<Bounds> boxes;
+    boxes.reserve(chains.size());
     for (const Chain &chain : chains)
+      boxes.push_back(chain.bounds);
+    const BoxTree tree(boxes);
+
+    std::vector<NearEdges> pairs;
+    pairs.reserve(2 * ends.size());
+    std::vector<unsigned int> found;
+    for (unsigned int chain = 0; chain < chains.size(); ++chain)
     {
       found.clear();
-      tree.query(bgi::intersects(box_of(chain.bounds, skin)),
-                 std::back_inserter(found));
-      for (unsigned int i = chain.begin; i < chain.end; ++i)
+      tree.find_near(boxes[chain], skin,
+                     [&](const unsigned int other)
+                     {
+                       if (other >= chain)
+                         found.push_back(other);
+                       return false;
+                     });
+      std::sort(found.begin(), found.end());
+      for (unsigned int i = chains[chain].begin; i < chains[chain].end; ++i)
       {
         const auto &[a, b]      = nodes[i];
         const std::size_t first = pairs.size();
-        for (const Entry &entry : found)
+        for (const unsigned int near_chain : found)
         {
-          const Chain &other = chains[entry.second];
+          const Chain &other = chains[near_chain];
           if (other.end <= i + 1 || !are_near(bounds[i], other.bounds, skin))
             continue;
           for (unsigned int j = std::max(i + 1, other.begin); j < other.end;
                ++j)
           {
             const auto &[c, d] = nodes[j];
-            if (are_near(bounds[i], bounds[j], skin)
-                && (ends[i].is_own || ends[j].is_own) && a != c && a != d
-                && b != c && b != d && distance(ends[i], ends[j]) <= skin
-                && motion_to_face(ends[i], ends[j]) <= skin)
-              pairs.push_back({ { i, j } });
+            if (!are_near(bounds[i], bounds[j], skin)
+                || !(ends[i].is_own || ends[j].is_own) || a == c || a == d
+                || b == c || b == d)
+              continue;
+            const double turn = motion_to_face(ways[i], ways[j], skin);
+            if (!(turn <= skin))
+              continue;
+            const double way = distance(ends[i], ends[j]);
+            if (way <= skin)
+              pairs.push_back({ { i, j }, turn, way });
           }
         }
-        std::sort(pairs.begin() + first, pairs.end());
         if (pairs.size() > most_pairs)
           refuse_pairs(ends[i], pairs.size() - first, skin);
       }

@@ -5,6 +5,8 @@
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "edge_lanes.h"
 
@@ -217,6 +219,50 @@ namespace quoin
     for (unsigned int j = 0; j < compact_own.size(); ++j)
       to[compact_own[j]] += from[j];
     std::fill(from.begin(), from.end(), dealii::Tensor<1, 2>());
+  }
+
+  double MovingEdges::motion_since(
+      const AlignedArray<dealii::Tensor<1, 2>> &from) const
+  {
+    using F = LaneFunctions<native_lanes>;
+    static_assert(native_lanes % dim == 0);
+    // The largest and the least component in each direction; several vectors,
+    // none of which waits for the others.
+    constexpr unsigned int n_chains = 4;
+    constexpr double infinity       = std::numeric_limits<double>::infinity();
+    F::Value largest[n_chains], least[n_chains];
+    std::fill_n(largest, n_chains, F::Value{} - infinity);
+    std::fill_n(least, n_chains, F::Value{} + infinity);
+    const double *now    = reinterpret_cast<const double *>(position.data());
+    const double *before = reinterpret_cast<const double *>(from.data());
+    const std::size_t n  = dim * position.size();
+    std::size_t i        = 0;
+    for (; i + n_chains * native_lanes <= n; i += n_chains * native_lanes)
+      for (unsigned int k = 0; k < n_chains; ++k)
+      {
+        const F::Value way = F::load(now + i + k * native_lanes)
+                             - F::load(before + i + k * native_lanes);
+        largest[k] = F::maximum(largest[k], way);
+        least[k]   = F::minimum(least[k], way);
+      }
+    double range[dim];
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      double high = -infinity, low = infinity;
+      for (std::size_t j = i + d; j < n; j += dim)
+      {
+        high = std::max(high, now[j] - before[j]);
+        low  = std::min(low, now[j] - before[j]);
+      }
+      for (unsigned int k = 0; k < n_chains; ++k)
+        for (unsigned int l = d; l < native_lanes; l += dim)
+        {
+          high = std::max(high, F::at(largest[k], l));
+          low  = std::min(low, F::at(least[k], l));
+        }
+      range[d] = n > 0 ? high - low : 0.;
+    }
+    return std::sqrt(range[0] * range[0] + range[1] * range[1]);
   }
 
   bool MovingEdges::vertex_is_inside(const unsigned int e, const unsigned int k,

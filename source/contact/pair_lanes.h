@@ -134,6 +134,39 @@ namespace quoin
       return (c > least_cosine) & (u > -margin) & (u - lb < la + margin);
     }
 
+    /**
+     * Whether edges do not overlap, and will not, by may_overlap(), as long as
+     * none of their nodes moves by more than @p motion [m] against another.
+     */
+    static QUOIN_INLINE Bits stay_clear(const Edge &a, const Edge &b,
+                                        const double motion)
+    {
+      // Both together turn by no more than this: one of length l by asin(d/l),
+      // which is at most pi/2 d/l. Their mean direction turns by half of it.
+      const Value turn
+          = M_PI_2 * motion * (a.inverse_length + b.inverse_length);
+      const Value c = cosine(a, b);
+      const Value scale
+          = 1. / F::square_root(F::maximum(fill(1.), 2. + 2. * c));
+      const Value tx     = scale * (a.tangent[0] - b.tangent[0]);
+      const Value ty     = scale * (a.tangent[1] - b.tangent[1]);
+      const Value margin = motion + 1e-8 * (a.length + b.length);
+      // How far a node is from the one that it passes as the overlap begins.
+      const auto is_clear = [&](const Value &x, const Value &y)
+      {
+        const Value distance = F::square_root(x * x + y * y);
+        return x * tx + y * ty > margin + 0.5 * turn * distance;
+      };
+      const Value x = b.x - a.x, y = b.y - a.y;
+      const Bits is_before = is_clear(-x, -y);
+      const Bits is_behind
+          = is_clear(x + b.length * b.tangent[0] - a.length * a.tangent[0],
+                     y + b.length * b.tangent[1] - a.length * a.tangent[1]);
+      const Bits has_direction = (turn < 1.) & (c > -0.5);
+      const Bits is_averted = (turn < 1.) & (c + turn < 0.999 * least_cosine);
+      return is_averted | (has_direction & (is_before | is_behind));
+    }
+
     /** Unit normal of a contact, from lower to upper: of @p a where @p lean is
         -1, of @p b where it is 1, across the mean direction @p t where it is 0.
      */

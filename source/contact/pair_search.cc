@@ -27,13 +27,19 @@ namespace quoin
     std::vector<std::array<unsigned int, 2>> found, result;
     std::vector<double> needed;
     std::vector<unsigned int> own_edges;
-    for (const auto &[i, j] :
-         near_edges(edges, ends, own_skin.search_distance(contacts) + apart))
+    const std::vector<NearEdges> near_ones
+        = near_edges(edges, ends, own_skin.search_distance(contacts) + apart);
+    found.reserve(near_ones.size());
+    needed.reserve(near_ones.size());
+    own_edges.reserve(near_ones.size());
+    result.reserve(near_ones.size());
+    for (const NearEdges &pair : near_ones)
     {
+      const auto &[i, j] = pair.places;
       if (is_matched(contacts, ends[i].edge, ends[j].edge))
         continue;
-      found.push_back({ { i, j } });
-      needed.push_back(motion_to_touch(ends[i], ends[j], apart));
+      found.push_back(pair.places);
+      needed.push_back(pair.motion_to_touch(apart));
       own_edges.push_back(ends[i].is_own + ends[j].is_own);
     }
     own_skin.choose(needed, own_edges, rate, contacts);
@@ -46,6 +52,9 @@ namespace quoin
   bool PairSearch::is_matched(const ContactState &contacts,
                               const unsigned int a, const unsigned int b) const
   {
+    if (edges[a].interface == ContactEdges::none
+        && edges[b].interface == ContactEdges::none)
+      return false;
     std::array<unsigned int, 2> blocks = { edges[a].block, edges[b].block };
     std::sort(blocks.begin(), blocks.end());
     for (const unsigned int i : { edges[a].interface, edges[b].interface })
@@ -103,8 +112,10 @@ namespace quoin
     if (!std::is_sorted(contacts.pairs.begin(), contacts.pairs.end(),
                         comes_first)) // joints that have become contacts
       std::sort(contacts.pairs.begin(), contacts.pairs.end(), comes_first);
-    AlignedArray<ContactPair> old;
+    // Both arrays keep their memory from search to search.
+    AlignedArray<ContactPair> &old = pairs_before;
     old.swap(contacts.pairs);
+    contacts.pairs.clear();
     contacts.pairs.reserve(found.size());
     auto next = old.begin();
     // Edges within the other block may be far from its edges.
@@ -128,10 +139,13 @@ namespace quoin
       for (; next != old.end() && next->edges() < these; ++next)
         keep_or_drop(*next);
       const bool is_old = next != old.end() && next->edges() == these;
-      contacts.pairs.push_back(
-          is_old && next->active ? *next : new_pair(ends[i], ends[j]));
-      if (is_old)
+      if (is_old && next->active)
+        contacts.pairs.push_back(*next++);
+      else
       {
+        contacts.pairs.push_back(new_pair(ends[i], ends[j]));
+        if (!is_old)
+          continue;
         ContactPair &pair = contacts.pairs.back();
         pair.was_open     = next->was_open;
         for (unsigned int k = 0; k < 2 && pair.lower == next->lower; ++k)

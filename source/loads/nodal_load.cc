@@ -373,10 +373,20 @@ namespace quoin
           power += forces[i][d] * velocity[nodes[i]][d];
       return grown_share(time.stage, ramp_duration) * power;
     }
-    double sum[dim]{}, inflow = 0.;
-    for (unsigned int i = 0; i < nodes.size(); ++i)
+    // Several sums, none of which waits for the others.
+    constexpr unsigned int n_sums = 4;
+    double sums[n_sums][dim]{}, inflow = 0.;
+    unsigned int done = 0;
+    for (; done + n_sums <= nodes.size(); done += n_sums)
+      for (unsigned int s = 0; s < n_sums; ++s)
+        for (unsigned int d = 0; d < dim; ++d)
+          sums[s][d] += weights[done + s] * velocity[nodes[done + s]][d];
+    for (; done < nodes.size(); ++done)
       for (unsigned int d = 0; d < dim; ++d)
-        sum[d] += weights[i] * velocity[nodes[i]][d];
+        sums[0][d] += weights[done] * velocity[nodes[done]][d];
+    double sum[dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      sum[d] = (sums[0][d] + sums[1][d]) + (sums[2][d] + sums[3][d]);
     for (unsigned int i = 0; i < inward.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         inflow += inward[i][d] * velocity[nodes[i]][d];

@@ -7,6 +7,7 @@
 #include <quoin/contact/contact_state.h>
 #include <quoin/contact/contact_edges.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -38,23 +39,32 @@ namespace quoin
                      const NodeRecord<2> *nodes,
                      const AlignedArray<std::uint8_t> &left_out, double skin);
 
-  /**
-   * All pairs of edges of @p ends with a motion_to_touch() of @p skin or less
-   * [m] of which this rank has one at least, given by their positions in
-   * @p ends, ascending, the smaller first: found by the boxes of edges that
-   * follow each other, in an R-tree. Edges that share a node are no pair.
-   */
-  std::vector<std::array<unsigned int, 2>>
-  near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
-             double skin);
+  /** Two edges that may touch before long. */
+  struct NearEdges
+  {
+    std::array<unsigned int, 2> places; /**< in a list, the smaller first */
+    /** By how much nodes have to move against each other until the edges face
+        each other by least_contact_cosine [m]. */
+    double to_face;
+    double distance; /**< 0 if they cross [m] */
+
+    /** By how much they have to move before edges touch that are @p apart where
+        they do [m]. */
+    double motion_to_touch(const double apart) const
+    {
+      return std::max(to_face, distance - apart);
+    }
+  };
 
   /**
-   * By how much nodes have to move against each other before two edges may
-   * touch that are @p apart where they do [m]: what brings them there, their
-   * distance, which is 0 if they cross, and what turns them until they face
-   * each other by least_contact_cosine, whichever is more.
+   * All pairs of edges of @p ends that are nearer than @p skin [m], and need to
+   * turn by no more to face each other, of which this rank has one at least,
+   * ascending in their places in @p ends: found by the boxes of edges that
+   * follow each other, in a tree. Edges that share a node are no pair.
    */
-  double motion_to_touch(const EdgeEnds &a, const EdgeEnds &b, double apart);
+  std::vector<NearEdges> near_edges(const ContactEdges &edges,
+                                    const std::vector<EdgeEnds> &ends,
+                                    double skin);
 } // namespace quoin
 
 #endif

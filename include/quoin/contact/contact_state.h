@@ -68,9 +68,10 @@ namespace quoin
   /** What a step has to know of a pair before it takes any notice. */
   enum class PairMark : std::uint8_t
   {
-    unseen = 0, /**< not active, and not seen apart */
-    open   = 1, /**< not active, and seen apart */
-    active = 2
+    unseen  = 0, /**< not active, and not seen apart */
+    open    = 1, /**< not active, and seen apart */
+    active  = 2,
+    distant = 3 /**< not active, and will not overlap for the time being */
   };
 
   /** Contacts that come and go; empty if displacements are small. */
@@ -82,6 +83,11 @@ namespace quoin
     /** Copies of each pair's flags active and was_open, which a step reads of
         all pairs. They are not archived; empty: to be made again. */
     AlignedArray<PairMark> marks;
+    /** Distant pairs do not overlap until nodes have moved by more than this
+        against each other [m], from these positions of MovingEdges. */
+    double distant_motion = 0.;
+    AlignedArray<dealii::Tensor<1, 2>> distant_from;
+    unsigned int distant_steps = 0; /**< since then */
 
     /** Flag of each interface of joints. */
     AlignedArray<std::uint8_t> handed_over;

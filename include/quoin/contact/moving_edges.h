@@ -85,6 +85,14 @@ namespace quoin
     {
       return edge_links[edge];
     }
+    /** Where the nodes are, compact [m]. */
+    const AlignedArray<dealii::Tensor<1, 2>> &positions() const
+    {
+      return position;
+    }
+    /** A bound of what nodes have moved against each other since they were at
+        @p from [m]. */
+    double motion_since(const AlignedArray<dealii::Tensor<1, 2>> &from) const;
     /** Whether the vertex at end @p k of edge @p e lies within the edges before
         and after edge @p touched. */
     bool vertex_is_inside(unsigned int e, unsigned int k,

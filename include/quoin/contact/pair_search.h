@@ -53,6 +53,7 @@ namespace quoin
     const NearPairs &near;
     const ContactLaws &laws;
     const ContactSkin own_skin;
+    AlignedArray<ContactPair> pairs_before; /**< the last search */
   };
 
   /** Lets new pairs beside contacts that were joints allow for the slip of

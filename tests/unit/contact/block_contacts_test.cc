@@ -813,7 +813,9 @@ TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)
   }
   const double skin = 0.2;
   // Sampled segments: nearer than the skin for sure, or farther for sure.
-  const auto found = near_edges(edges, ends, skin);
+  std::vector<std::array<unsigned int, 2>> found;
+  for (const NearEdges &pair : near_edges(edges, ends, skin))
+    found.push_back(pair.places);
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
   unsigned int checked = 0;
   for (unsigned int i = 0; i < ends.size(); ++i)

@@ -37,9 +37,17 @@ namespace
     return result;
   }
 
-  /** The array after some impacts of blocks of 0.5 m/s that all drift. */
+  struct Shaking
+  {
+    double drift = 0.; // of all blocks [m/s]
+    double spin  = 0.; // of every other one, the others the other way [rad/s]
+    bool anew    = false; // without what steps know of pairs from those before
+    unsigned int steps = 2000;
+  };
+
+  /** The array after some impacts of blocks of 0.5 m/s. */
   std::unique_ptr<TestRun> shaken(const BlockMesh<2> &mesh, const double skin,
-                                  const double drift = 0.)
+                                  const Shaking &shaking = {})
   {
     auto run = std::make_unique<TestRun>(mesh, loose_blocks(skin),
                                          std::vector<LoadParameters>());
@@ -49,10 +57,22 @@ namespace
     std::vector<dealii::Tensor<1, 2>> velocity;
     for (unsigned int b = 0; b < n * n; ++b)
       velocity.push_back(
-          dealii::Point<2>(uniform(random) + drift, uniform(random)));
+          dealii::Point<2>(uniform(random) + shaking.drift, uniform(random)));
     for (unsigned int i = 0; i < run->nodes->n_local(); ++i)
-      run->state.velocity[i] = velocity[run->nodes->block_of_node(i)];
-    run->step(2000);
+    {
+      const unsigned int b = run->nodes->block_of_node(i);
+      const double x       = run->nodes->point(i)[0] - b % n * distance - 0.5;
+      const double y       = run->nodes->point(i)[1] - b / n * distance - 0.5;
+      const double turning = b % 2 == 0 ? shaking.spin : -shaking.spin;
+      run->state.velocity[i]
+          = velocity[b] + dealii::Point<2>(-turning * y, turning * x);
+    }
+    for (unsigned int i = 0; i < shaking.steps; ++i)
+    {
+      if (shaking.anew)
+        run->state.get<ContactState>().marks.clear();
+      run->step(1);
+    }
     return run;
   }
 
@@ -86,11 +106,29 @@ TEST(ContactSkin, LooksAtFewPairsAndChangesNothing)
             0.3 * wide->model.contacts()->work().updates);
 }
 
+TEST(ContactSkin, DistantPairsAreLookedAtInTime)
+{
+  BlockMesh<2> mesh;
+  make_array(mesh);
+  const auto some              = shaken(mesh, 0.1, { 0., 1. }),
+             all               = shaken(mesh, 0.1, { 0., 1., true });
+  const ContactState &contacts = some->state.get<ContactState>();
+  EXPECT_GT(some->state.energy.friction, 0.);
+  EXPECT_GT(std::count(contacts.marks.begin(),
+                       contacts.marks.begin() + contacts.pairs.size(),
+                       PairMark::distant),
+            100);
+  for (unsigned int i = 0; i < some->state.nodes.size(); ++i)
+    for (unsigned int d = 0; d < 2; ++d)
+      EXPECT_EQ(some->state.nodes[i].u[d], all->state.nodes[i].u[d]);
+}
+
 TEST(ContactSkin, WhatAllBlocksShareCallsForNoSearch)
 {
   BlockMesh<2> mesh;
   make_array(mesh);
-  const auto still = shaken(mesh, 0.), drifts = shaken(mesh, 0., 20.);
+  const auto still  = shaken(mesh, 0., { 0., 0., false, 6000 }),
+             drifts = shaken(mesh, 0., { 20., 0., false, 6000 });
   EXPECT_GT(n_searches(*still), 5.);
   EXPECT_NEAR(n_searches(*drifts), n_searches(*still),
               0.1 * n_searches(*still));
