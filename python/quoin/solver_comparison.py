@@ -17,6 +17,7 @@ SOLVERS = ("explicit", "implicit")
 THRESHOLD = 1e-4                     # [m], above it a joint is open or slides
 TURN = 0.02                          # of the range of x
 FAR = 0.02                           # of the common way
+PLATEAU = 1e-3                       # of the peak, by which a plateau may vary
 
 
 def spec_of(case=None, path=None):
@@ -86,6 +87,15 @@ class Run:
         """y, where the way stands still its last value."""
         last = np.append(np.diff(self.way) > 0.0, True)
         return np.interp(way, self.way[last], self.y[last])
+
+    def way_of_peak(self):
+        """The way at the peak; of a curve that stays at its peak, as one that
+        slides does, the end of that, as which of these values is the largest
+        is a matter of rounding."""
+        highest = np.abs(self.y) >= (1.0 - PLATEAU) * np.abs(self.peak)
+        after = np.flatnonzero(~highest[self.peak_row:])
+        last = self.peak_row + after[0] - 1 if len(after) else len(self.y) - 1
+        return self.way[last]
 
     def fields(self):
         """Times [s] of the fields of joints and the way there, or None."""
@@ -176,7 +186,8 @@ class Comparison:
     def places(self):
         """The ways at which joints are compared: the earlier peak, up to which
         both should crack alike, and the last that both reach."""
-        return {"at the peak": min(*self.peak_ways, self.last),
+        return {"at the peak": min(*(run.way_of_peak() for run in self.runs),
+                                   self.last),
                 "at the end": self.last}
 
     def joints(self):

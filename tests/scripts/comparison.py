@@ -56,6 +56,20 @@ class Numbers(Folders):
                                0.05)
         self.assertAlmostEqual(curves["largest difference"], 0.5)
 
+    def test_the_peak_of_a_plateau_is_its_end(self):
+        forces = {0.: 0., 1.: 39.99, 2.: 40., 3.: 39.98, 4.: 30.}
+        run = object.__new__(solver_comparison.Run)
+        run.way, run.y = (np.array(v) for v in (list(forces),
+                                                list(forces.values())))
+        run.peak_row, run.peak = 2, 40.
+        self.assertEqual(run.way_of_peak(), 3.)
+        run.y = -np.array([0., 39.99, 40., 39.9, 39.99])
+        run.peak = -40.
+        self.assertEqual(run.way_of_peak(), 2.)
+        run.y = np.array([0., 20., 40., 40., 40.])
+        run.peak = 40.
+        self.assertEqual(run.way_of_peak(), 4.)
+
     def test_fields_are_of_the_same_displacement(self):
         joints = self.compare().numbers()["joints"]
         peak, end = joints["at the peak"], joints["at the end"]

@@ -56,7 +56,8 @@ class Build(Shell):
         if os.path.exists(path):
             os.remove(path)
         self.assertEqual(self.call("build", "all", CMAKE_OPTIONS=options),
-                         "ninja -C %s/build all\n" % self.root)
+                         "ninja -C %s/build -j %d all\n"
+                         % (self.root, len(os.sched_getaffinity(0))))
         if not os.path.exists(path):
             return None
         with open(path) as file:
