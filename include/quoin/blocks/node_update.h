@@ -85,7 +85,8 @@ namespace quoin
   QUOIN_INLINE typename Lanes<lanes>::Value twice(const double *first)
   {
     if constexpr (lanes == 4)
-      return { first[0], first[0], first[1], first[1] };
+      return typename Lanes<lanes>::Value{ first[0], first[0], first[1],
+                                           first[1] };
     else
     {
       const Lanes<4>::Value a = Lanes<4>::four(first);
