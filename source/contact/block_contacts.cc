@@ -12,13 +12,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <sstream>
 
 #include "contact_pack.h"
 #include "contact_points.h"
 #include "edge_lanes.h"
+#include "pair_marks.h"
 
 namespace quoin
 {
@@ -27,11 +27,6 @@ namespace quoin
     /** Share of the shorter edge by which edges may overlap that meet without
         having been seen apart. */
     constexpr double first_overlap = 1e-3;
-
-    /** Motion against each other for which pairs are found to be distant, at
-        first by the skin; then such that it suffices for these steps. */
-    constexpr double first_distance          = 0.125;
-    constexpr unsigned int shortest_distance = 8, longest_distance = 32;
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -84,20 +79,6 @@ namespace quoin
                       MPI_DOUBLE, MPI_MAX, communicator);
       }
     };
-    void make_marks(ContactState &contacts)
-    {
-      // Those beyond the last pair are none that a step looks at.
-      contacts.marks.assign((contacts.pairs.size() + 7) / 8 * 8,
-                            PairMark::distant);
-      for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
-      {
-        const ContactPair &pair = contacts.pairs[i];
-        contacts.marks[i]       = pair.active     ? PairMark::active
-                                  : pair.was_open ? PairMark::open
-                                                  : PairMark::unseen;
-      }
-      contacts.distant_from.clear();
-    }
   } // namespace
 
   BlockContacts::BlockContacts(const NodeMap<2> &node_map,
@@ -364,115 +345,32 @@ namespace quoin
     energies.joint += energy;
   }
 
-  void BlockContacts::mark_distant(ContactState &contacts) const
-  {
-    const MovingEdges &moving = near.moving_edges();
-    const bool is_first       = contacts.distant_from.empty();
-    if (!is_first
-        && moving.motion_since(contacts.distant_from)
-               <= contacts.distant_motion)
-    {
-      ++contacts.distant_steps;
-      return;
-    }
-    // Such that it is worth the while.
-    if (is_first)
-      contacts.distant_motion = first_distance * contacts.skin;
-    else if (contacts.distant_steps < shortest_distance)
-      contacts.distant_motion *= 2.;
-    else if (contacts.distant_steps > longest_distance)
-      contacts.distant_motion *= 0.5;
-    contacts.distant_steps = 0;
-    contacts.distant_from  = moving.positions();
-
-    constexpr unsigned int lanes = native_lanes;
-    for (unsigned int i = 0; i < contacts.pairs.size(); i += lanes)
-    {
-      std::uint32_t ea[lanes], eb[lanes];
-      for (unsigned int l = 0; l < lanes; ++l)
-      {
-        ea[l] = near.edges_of(i + l)[0];
-        eb[l] = near.edges_of(i + l)[1];
-      }
-      EdgeLanes<lanes> a, b;
-      moving.load(ea, a);
-      moving.load(eb, b);
-      const unsigned int clear = LaneFunctions<lanes>::set_lanes(
-          PairFunctions<lanes>::stay_clear(a, b, contacts.distant_motion));
-      const unsigned int n
-          = std::min<unsigned int>(lanes, contacts.pairs.size() - i);
-      for (unsigned int l = 0; l < n; ++l)
-      {
-        PairMark &mark = contacts.marks[i + l];
-        if (mark == PairMark::unseen || mark == PairMark::distant)
-          mark = clear >> l & 1 ? PairMark::distant : PairMark::unseen;
-      }
-    }
-  }
-
-  void BlockContacts::list_pairs(const ContactState &contacts)
-  {
-    // Marks eight by eight as bytes: of active ones the second bit is set and
-    // not the first, of distant ones both.
-    constexpr std::uint64_t first_bits = 0x0101010101010101;
-    static_assert(unsigned(PairMark::open) == 1
-                  && unsigned(PairMark::active) == 2
-                  && unsigned(PairMark::distant) == 3);
-    active_pairs.resize(contacts.marks.size());
-    idle_pairs.resize(contacts.marks.size());
-    unsigned int *active = active_pairs.data(), *idle = idle_pairs.data();
-    for (unsigned int i = 0; i < contacts.marks.size(); i += 8)
-    {
-      std::uint64_t marks;
-      std::memcpy(&marks, &contacts.marks[i], sizeof(marks));
-      const auto list = [&](std::uint64_t bits, unsigned int *&to)
-      {
-        for (; bits != 0; bits &= bits - 1)
-          *to++ = i + __builtin_ctzll(bits) / 8;
-      };
-      list(marks >> 1 & ~marks & first_bits, active);
-      list(~(marks >> 1) & first_bits, idle);
-    }
-    active_pairs.resize(active - active_pairs.data());
-    idle_pairs.resize(idle - idle_pairs.data());
-  }
-
   template <int lanes>
   void BlockContacts::begin_contacts(ContactState &contacts)
   {
-    const MovingEdges &moving = near.moving_edges();
     // Before any pair is brought to the present, so that heirs go on from the
     // same past as those they follow, whatever the order of the pairs.
     near.update_copies(contacts);
-    mark_distant(contacts);
-    list_pairs(contacts);
-    // Of the idle ones those that may overlap.
+    mark_distant(near, contacts);
+    list_pairs(contacts.marks, active_pairs, idle_pairs);
+    // Only idle pairs that may overlap are looked at more closely.
     unsigned int n_idle = 0;
     for (unsigned int j = 0; j < idle_pairs.size(); j += lanes)
     {
       const unsigned int n
           = std::min<unsigned int>(lanes, idle_pairs.size() - j);
-      std::uint32_t pair[lanes], ea[lanes], eb[lanes];
-      for (unsigned int l = 0; l < lanes; ++l)
-      {
-        pair[l] = idle_pairs[j + std::min(l, n - 1)];
-        ea[l]   = near.edges_of(pair[l])[0];
-        eb[l]   = near.edges_of(pair[l])[1];
-      }
-      EdgeLanes<lanes> a, b;
-      moving.load(ea, a);
-      moving.load(eb, b);
+      const PairPack<lanes> pack(near, &idle_pairs[j], n);
       const unsigned int overlap = LaneFunctions<lanes>::set_lanes(
-          PairFunctions<lanes>::may_overlap(a, b));
+          PairFunctions<lanes>::may_overlap(pack.a, pack.b));
       for (unsigned int l = 0; l < n; ++l)
       {
-        idle_pairs[n_idle] = pair[l];
+        idle_pairs[n_idle] = pack.pair[l];
         n_idle += overlap >> l & 1;
-        PairMark &mark = contacts.marks[pair[l]];
+        PairMark &mark = contacts.marks[pack.pair[l]];
         if (mark == PairMark::open && (~overlap >> l & 1))
         {
-          mark                             = PairMark::unseen;
-          contacts.pairs[pair[l]].was_open = 0;
+          mark                                  = PairMark::unseen;
+          contacts.pairs[pack.pair[l]].was_open = 0;
         }
       }
     }
@@ -494,21 +392,12 @@ namespace quoin
   {
     const MovingEdges &moving = near.moving_edges();
     using F                   = LaneFunctions<lanes>;
-    std::uint32_t ea[lanes], eb[lanes];
-    for (unsigned int l = 0; l < lanes; ++l)
-    {
-      const auto &pair = near.edges_of(idle[std::min(l, n - 1)]);
-      ea[l]            = pair[0];
-      eb[l]            = pair[1];
-    }
-    EdgeLanes<lanes> a, b;
-    moving.load(ea, a);
-    moving.load(eb, b);
+    const PairPack<lanes> pack(near, idle, n);
     // Areas do not count.
     PairLanes<lanes> pairs{};
     PairGeometry<lanes> g;
-    const unsigned int found
-        = F::set_lanes(moving.find_geometry(pairs, ea, a, eb, b, g));
+    const unsigned int found = F::set_lanes(
+        moving.find_geometry(pairs, pack.lower, pack.a, pack.upper, pack.b, g));
     if (found == 0)
       g.opening[0] = g.opening[1] = typename F::Value{};
     alignas(64) double opening[2][lanes];
@@ -593,20 +482,11 @@ namespace quoin
     const unsigned int n_active = active.size();
     for (unsigned int first = 0; first < n_active; first += lanes)
     {
-      // Lanes beyond the last pair repeat it.
       const unsigned int n   = std::min<unsigned int>(lanes, n_active - first);
       const unsigned int all = (1U << n) - 1;
-      std::uint32_t pair[lanes], ea[lanes], eb[lanes];
-      for (unsigned int l = 0; l < lanes; ++l)
-      {
-        pair[l] = active[first + std::min(l, n - 1)];
-        ea[l]   = near.edges_of(pair[l])[0];
-        eb[l]   = near.edges_of(pair[l])[1];
-      }
-      EdgeLanes<lanes> a, b;
-      moving.load(ea, a);
-      moving.load(eb, b);
-      ContactPair *pairs = contacts.pairs.data();
+      const PairPack<lanes> edges_of(near, &active[first], n);
+      const auto &[pair, ea, eb, a, b] = edges_of;
+      ContactPair *pairs               = contacts.pairs.data();
       // Those of the pack after the next one: active pairs lie anywhere.
       for (unsigned int j = first + 2 * lanes;
            j < std::min(n_active, first + 3 * lanes); ++j)

@@ -4,8 +4,13 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/contact/contact_search.h>
 
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -14,6 +19,13 @@ namespace quoin
 {
   namespace
   {
+    namespace bg  = boost::geometry;
+    namespace bgi = boost::geometry::index;
+    using Point   = bg::model::d2::point_xy<double>;
+    using Box     = bg::model::box<Point>;
+    using Entry   = std::pair<Box, unsigned int>;
+    using Tree    = bgi::rtree<Entry, bgi::linear<16>>;
+
     bool cross(const EdgeEnds &a, const EdgeEnds &b)
     {
       const auto side = [](const EdgeEnds &s, const double x, const double y) {
@@ -108,93 +120,11 @@ namespace quoin
       return true;
     }
 
-    void enclose(const Bounds &inner, Bounds &bounds)
+    Box box_of(const Bounds &bounds, const double margin)
     {
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        bounds[d]       = std::min(bounds[d], inner[d]);
-        bounds[dim + d] = std::max(bounds[dim + d], inner[dim + d]);
-      }
+      return { Point(bounds[0] - margin, bounds[1] - margin),
+               Point(bounds[2] + margin, bounds[3] + margin) };
     }
-
-    /** Boxes in boxes of some of them that are near each other, those in larger
-        ones, and so on. */
-    class BoxTree
-    {
-    public:
-      explicit BoxTree(const std::vector<Bounds> &boxes)
-      {
-        // In strips of about as many groups as there are strips.
-        struct Place
-        {
-          double x, y;
-          unsigned int box;
-        };
-        std::vector<Place> places;
-        places.reserve(boxes.size());
-        for (unsigned int i = 0; i < boxes.size(); ++i)
-          places.push_back(
-              { boxes[i][0] + boxes[i][2], boxes[i][1] + boxes[i][3], i });
-        std::sort(places.begin(), places.end(),
-                  [](const Place &a, const Place &b) { return a.x < b.x; });
-        const std::size_t n_groups = (boxes.size() + group - 1) / group;
-        const std::size_t strip
-            = group * static_cast<std::size_t>(std::ceil(std::sqrt(n_groups)));
-        for (std::size_t first = 0; first < places.size(); first += strip)
-          std::sort(places.begin() + first,
-                    places.begin() + std::min(first + strip, places.size()),
-                    [](const Place &a, const Place &b) { return a.y < b.y; });
-        order.reserve(boxes.size());
-        levels.emplace_back().reserve(boxes.size());
-        for (const Place &place : places)
-        {
-          order.push_back(place.box);
-          levels[0].push_back(boxes[place.box]);
-        }
-        while (levels.back().size() > group)
-        {
-          const std::vector<Bounds> &finer = levels.back();
-          std::vector<Bounds> coarser((finer.size() + group - 1) / group,
-                                      nothing);
-          for (std::size_t i = 0; i < finer.size(); ++i)
-            enclose(finer[i], coarser[i / group]);
-          levels.push_back(std::move(coarser));
-        }
-      }
-
-      /** Calls @p visit with each box that is nearer to @p bounds than @p skin,
-          in no order, until that returns true; returns whether it did. */
-      template <typename Visit>
-      bool find_near(const Bounds &bounds, const double skin,
-                     const Visit &visit) const
-      {
-        return find_near(bounds, skin, visit, levels.size() - 1, 0,
-                         levels.back().size());
-      }
-
-    private:
-      template <typename Visit>
-      bool find_near(const Bounds &bounds, const double skin,
-                     const Visit &visit, const std::size_t level,
-                     const std::size_t begin, const std::size_t end) const
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          if (!are_near(bounds, levels[level][i], skin))
-            continue;
-          if (level == 0 ? visit(order[i])
-                         : find_near(bounds, skin, visit, level - 1, group * i,
-                                     std::min(group * (i + 1),
-                                              levels[level - 1].size())))
-            return true;
-        }
-        return false;
-      }
-
-      static constexpr std::size_t group = 8;
-      std::vector<unsigned int> order; /**< of the boxes of the finest level */
-      std::vector<std::vector<Bounds>> levels; /**< the finest one first */
-    };
 
     /** Number of consecutive edges that have a common box. */
     constexpr unsigned int edges_of_box = 16;
@@ -245,7 +175,18 @@ namespace quoin
                                     const std::vector<EdgeEnds> &ends,
                                     const double skin)
     {
-      const BoxTree tree(boxes);
+      Bounds all = nothing;
+      std::vector<Entry> entries;
+      for (unsigned int i = 0; i < boxes.size(); ++i)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          all[d]     = std::min(all[d], boxes[i][d]);
+          all[2 + d] = std::max(all[2 + d], boxes[i][2 + d]);
+        }
+        entries.emplace_back(box_of(boxes[i], skin), i);
+      }
+      const Tree tree(entries);
       std::vector<unsigned int> found;
       const auto add = [&](const unsigned int edge)
       {
@@ -256,8 +197,8 @@ namespace quoin
       {
         Bounds bounds = nothing;
         enclose(edge, bounds);
-        if (!tree.find_near(bounds, skin,
-                            [](const unsigned int) { return true; }))
+        if (!are_near(bounds, all, skin)
+            || tree.qbegin(bgi::intersects(box_of(bounds, 0.))) == tree.qend())
           continue;
         add(edge.edge);
         add(edges[edge.edge].previous);
@@ -391,33 +332,30 @@ namespace quoin
       ways.emplace_back(ends[i]);
     }
     const std::vector<Chain> chains = chains_of(edges, ends);
-    std::vector<Bounds> boxes;
-    boxes.reserve(chains.size());
-    for (const Chain &chain : chains)
-      boxes.push_back(chain.bounds);
-    const BoxTree tree(boxes);
+    std::vector<Entry> entries;
+    entries.reserve(chains.size());
+    for (unsigned int c = 0; c < chains.size(); ++c)
+      entries.emplace_back(box_of(chains[c].bounds, 0.), c);
+    const Tree tree(entries);
 
     std::vector<NearEdges> pairs;
     pairs.reserve(2 * ends.size());
-    std::vector<unsigned int> found;
-    for (unsigned int chain = 0; chain < chains.size(); ++chain)
+    std::vector<Entry> found;
+    for (const Chain &chain : chains)
     {
       found.clear();
-      tree.find_near(boxes[chain], skin,
-                     [&](const unsigned int other)
-                     {
-                       if (other >= chain)
-                         found.push_back(other);
-                       return false;
-                     });
-      std::sort(found.begin(), found.end());
-      for (unsigned int i = chains[chain].begin; i < chains[chain].end; ++i)
+      tree.query(bgi::intersects(box_of(chain.bounds, skin)),
+                 std::back_inserter(found));
+      std::sort(found.begin(), found.end(),
+                [](const Entry &a, const Entry &b)
+                { return a.second < b.second; });
+      for (unsigned int i = chain.begin; i < chain.end; ++i)
       {
         const auto &[a, b]      = nodes[i];
         const std::size_t first = pairs.size();
-        for (const unsigned int near_chain : found)
+        for (const Entry &entry : found)
         {
-          const Chain &other = chains[near_chain];
+          const Chain &other = chains[entry.second];
           if (other.end <= i + 1 || !are_near(bounds[i], other.bounds, skin))
             continue;
           for (unsigned int j = std::max(i + 1, other.begin); j < other.end;

@@ -4,11 +4,11 @@
 #ifndef quoin_source_contact_edge_lanes_h
 #define quoin_source_contact_edge_lanes_h
 
-#include <quoin/contact/moving_edges.h>
+#include <quoin/contact/near_pairs.h>
 
 #include "pair_lanes.h"
 
-// Moving edges for PairFunctions.
+// Moving edges and pairs of them for PairFunctions.
 
 namespace quoin
 {
@@ -106,6 +106,29 @@ namespace quoin
                   reinterpret_cast<const char *>(&rows[l][2 * n]));
         }
   }
+
+  /** Pairs, one in each lane, and their edges. */
+  template <int lanes>
+  struct PairPack
+  {
+    std::uint32_t pair[lanes];                /**< indices of NearPairs */
+    std::uint32_t lower[lanes], upper[lanes]; /**< edges of MovingEdges */
+    EdgeLanes<lanes> a, b;                    /**< those edges */
+
+    /** Takes @p n pairs from @p first on; lanes beyond repeat the last one. */
+    QUOIN_INLINE PairPack(const NearPairs &near, const unsigned int *first,
+                          const unsigned int n)
+    {
+      for (unsigned int l = 0; l < lanes; ++l)
+      {
+        pair[l]  = first[std::min(l, n - 1)];
+        lower[l] = near.edges_of(pair[l])[0];
+        upper[l] = near.edges_of(pair[l])[1];
+      }
+      near.moving_edges().load(lower, a);
+      near.moving_edges().load(upper, b);
+    }
+  };
 } // namespace quoin
 
 #endif

@@ -47,6 +47,7 @@ class Build(Shell):
         self.take("scripts/build")
         self.write("scripts/debian-packages.txt", "")
         self.write("bin/ninja", SAYS)
+        self.write("bin/nproc", "#!/bin/sh\necho 7\n")
         # whose screen output the script throws away
         self.write("bin/cmake", SAYS.replace("echo", "echo >%s/called"
                                              % self.root))
@@ -56,8 +57,7 @@ class Build(Shell):
         if os.path.exists(path):
             os.remove(path)
         self.assertEqual(self.call("build", "all", CMAKE_OPTIONS=options),
-                         "ninja -C %s/build -j %d all\n"
-                         % (self.root, len(os.sched_getaffinity(0))))
+                         "ninja -C %s/build -j 7 all\n" % self.root)
         if not os.path.exists(path):
             return None
         with open(path) as file:

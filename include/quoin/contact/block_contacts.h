@@ -184,10 +184,6 @@ namespace quoin
     void note_dashpot(const DashpotPoint &point);
     /** Adds the forces of the dashpots of noted points. */
     void add_dashpot_forces(const ContactState &contacts);
-    /** Finds out again which pairs are distant if nodes have moved too far. */
-    void mark_distant(ContactState &contacts) const;
-    /** Sets active_pairs and idle_pairs, those that are not distant. */
-    void list_pairs(const ContactState &contacts);
     /** Activates pairs that have come into contact; sets active_pairs. */
     template <int lanes>
     void begin_contacts(ContactState &contacts);

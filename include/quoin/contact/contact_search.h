@@ -60,7 +60,7 @@ namespace quoin
    * All pairs of edges of @p ends that are nearer than @p skin [m], and need to
    * turn by no more to face each other, of which this rank has one at least,
    * ascending in their places in @p ends: found by the boxes of edges that
-   * follow each other, in a tree. Edges that share a node are no pair.
+   * follow each other, in an R-tree. Edges that share a node are no pair.
    */
   std::vector<NearEdges> near_edges(const ContactEdges &edges,
                                     const std::vector<EdgeEnds> &ends,

@@ -55,7 +55,8 @@ namespace quoin
       const Bits failing = present & ~points.elastic;
       if (F::any(failing))
       {
-        // Of a copy, so that points which do not fail stay in registers.
+        // fail() gets a copy, so that the points of all other packs, whose
+        // address nobody takes, stay in registers.
         PointLanes<lanes, dim> all = points;
         fail(all, present, failing, weight, lost);
         points.sigma = all.sigma;

@@ -26,12 +26,12 @@ namespace quoin
     Slips tau;               /**< their shear tractions there [Pa] */
     Bits elastic;            /**< they neither fail, slip nor are open */
 
-    /** Their entries in @p array of the history. */
+    /** The entries of the points in @p array of the history. */
     QUOIN_INLINE double *of(double *array) const
     {
       return array + first;
     }
-    /** The same in an array of slips or shear tractions. */
+    /** The entries of the points in an array of slips or shear tractions. */
     QUOIN_INLINE double *slips_of(double *array) const
     {
       return array + (dim - 1) * first;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_source_contact_pair_marks_h
+#define quoin_source_contact_pair_marks_h
+
+#include <quoin/contact/near_pairs.h>
+
+#include <vector>
+
+// What a step has to know of all pairs before it looks at any: PairMark.
+
+namespace quoin
+{
+  /** Marks all pairs by their flags, none of them as distant. */
+  void make_marks(ContactState &contacts);
+
+  /** Finds out anew which pairs are distant, if nodes have moved farther than
+      they may since that was found out last. theory.md, "General contacts". */
+  void mark_distant(const NearPairs &near, ContactState &contacts);
+
+  /** Lists the pairs that are active, and those that are neither active nor
+      distant, ascending. */
+  void list_pairs(const AlignedArray<PairMark> &marks,
+                  std::vector<unsigned int> &active,
+                  std::vector<unsigned int> &idle);
+} // namespace quoin
+
+#endif
