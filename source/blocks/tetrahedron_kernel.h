@@ -60,24 +60,23 @@ namespace quoin
       }
     };
 
-    /** Cells that go through the lanes together. */
-    template <int lanes, bool with_stress>
-    struct TetrahedronGroup
+    /** Edges of cells that go through the lanes together. */
+    template <int lanes>
+    struct TetrahedronEdges
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
 
-      Tetrahedron<L> cell;
-      PolarDecomposition<L> polar;
+      Value e[3][3]; /**< from node 0 to nodes 1, 2, 3, at rest [m] */
+      Value d[3][3]; /**< their displacements less that of node 0 [m] */
 
-      /** Geometry and displacement gradients. @p offset: of nodes 0, 1, 2, 3
-          of each lane, in bytes into the forces, half of that into the
-          records. */
+      /** @p offset: of nodes 0, 1, 2, 3 of each lane, in bytes into the
+          forces, half of that into the records. */
       QUOIN_INLINE void load(const std::uint16_t *offset,
                              const ChunkNodes &nodes)
       {
         const char *records = reinterpret_cast<const char *>(nodes.record);
-        Value e[3][3], d[3][3], X0[4], u0[4];
+        Value X0[4], u0[4];
         L::load_rows(records, 2, offset, X0);
         L::load_rows(records + 32, 2, offset, u0);
         for (int k = 0; k < 3; ++k)
@@ -90,16 +89,57 @@ namespace quoin
             X[l] -= X0[l];
             u[l] -= u0[l];
           }
-          L::transpose(X, column);
+          L::to_columns(X, column);
           for (int i = 0; i < 3; ++i)
             e[k][i] = column[i];
-          L::transpose(u, column);
+          L::to_columns(u, column);
           for (int i = 0; i < 3; ++i)
             d[k][i] = column[i + 1];
         }
-        cell.set_edges(e);
-        cell.gradient(d, polar.H);
+      }
+    };
+
+    /** Cells that go through the lanes together. */
+    template <int lanes, bool with_stress>
+    struct TetrahedronGroup
+    {
+      using L     = Lanes<lanes>;
+      using Value = typename L::Value;
+      using Edges = TetrahedronEdges<lanes>;
+
+      Tetrahedron<L> cell;
+      PolarDecomposition<L> polar;
+
+      /** @p offset as of TetrahedronEdges::load(). */
+      QUOIN_INLINE void load(const std::uint16_t *offset,
+                             const ChunkNodes &nodes)
+      {
+        Edges edges;
+        edges.load(offset, nodes);
+        set_edges(edges);
+      }
+
+      QUOIN_INLINE void set_edges(const Edges &edges)
+      {
+        cell.set_edges(edges.e);
+        cell.gradient(edges.d, polar.H);
         polar.find_tensors();
+      }
+
+      /** Finds the trace of the strain and loads the @p next group meanwhile.
+       */
+      QUOIN_INLINE void find_trace_and_load(TetrahedronGroup &next,
+                                            const std::uint16_t *offset_of_next,
+                                            const ChunkNodes &nodes)
+      {
+        Edges edges;
+        polar.find_trace([&](const unsigned int part)
+                             __attribute__((always_inline)) {
+                               if (part == 0)
+                                 edges.load(offset_of_next, nodes);
+                               else
+                                 next.set_edges(edges);
+                             });
       }
 
       /** @p isotropic: lambda tr e, or what is in its place; it, @p mu and
@@ -128,7 +168,7 @@ namespace quoin
         {
           const Value column[4] = { f[k][0], f[k][1], f[k][2], Value{} };
           Value row[4];
-          L::transpose(column, row);
+          L::to_rows(column, row);
           for (int l = 0; l < 4; ++l)
             rest[l] -= row[l];
           L::add_rows(sums, offset + (k + 1) * lanes, row);
@@ -152,7 +192,8 @@ namespace quoin
      * bit in @p last_mask have no cell of their own in the last group.
      *
      * The next group is loaded while the trace of one group's strain is found,
-     * a long chain of dependent operations.
+     * a long chain of dependent operations. No branch may be between the two,
+     * or they do not overlap.
      */
     template <int lanes, bool with_stress>
     __attribute__((noinline)) void
@@ -165,21 +206,26 @@ namespace quoin
       constexpr int stress_stride = with_stress ? 6 * lanes : 0;
       LameModuli<Lanes<lanes>> moduli{ Value{} - stiffness.lambda / 6.,
                                        Value{} - stiffness.mu / 6. };
-      TetrahedronGroup<lanes, with_stress> group[2];
-      group[0].load(offset, nodes);
-      for (std::size_t g = 0; g < n; ++g)
+      using Group           = TetrahedronGroup<lanes, with_stress>;
+      const auto add_forces = [&](Group & group) __attribute__((always_inline))
       {
-        auto &now = group[g % 2];
-        now.polar.find_trace();
-        if (g + 1 < n)
-          group[(g + 1) % 2].load(offset + 4 * lanes, nodes);
-        else
-          keep_lanes<lanes>(last_mask, moduli);
-        now.add_forces(offset, moduli.lambda * now.polar.a, moduli.mu, stress,
-                       nodes);
+        group.add_forces(offset, moduli.lambda * group.polar.a, moduli.mu,
+                         stress, nodes);
         offset += 4 * lanes;
         stress += stress_stride;
+      };
+      Group group[2];
+      group[0].load(offset, nodes);
+      for (std::size_t g = 0; g + 1 < n; ++g)
+      {
+        group[g % 2].find_trace_and_load(group[(g + 1) % 2], offset + 4 * lanes,
+                                         nodes);
+        add_forces(group[g % 2]);
       }
+      Group &last = group[(n - 1) % 2];
+      last.polar.find_trace();
+      keep_lanes<lanes>(last_mask, moduli);
+      add_forces(last);
     }
 
     /** add_tetrahedra() of mixed ones, each eight groups. The cells of a lane
@@ -201,10 +247,14 @@ namespace quoin
         if (g + parts_of_mixed == n)
           keep_lanes<lanes>(last_mask, moduli);
         Value volume{}, growth{};
+        group[0].load(offset, nodes);
         for (unsigned int k = 0; k < parts_of_mixed; ++k)
         {
-          group[k].load(offset + 4 * lanes * k, nodes);
-          group[k].polar.find_trace();
+          if (k + 1 < parts_of_mixed)
+            group[k].find_trace_and_load(group[k + 1],
+                                         offset + 4 * lanes * (k + 1), nodes);
+          else
+            group[k].polar.find_trace();
           volume += group[k].cell.det;
           growth += group[k].cell.det * group[k].polar.a;
         }

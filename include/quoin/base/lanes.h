@@ -123,30 +123,19 @@ namespace quoin
     template <typename Of>
     static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
     {
-      const Value a = four(of(0)), b = four(of(1)), c = four(of(2)),
-                  d    = four(of(3));
-      const Value ab_0 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-      const Value ab_1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-      const Value cd_0 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-      const Value cd_1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-      v[0]             = __builtin_shufflevector(ab_0, cd_0, 0, 1, 4, 5);
-      v[1]             = __builtin_shufflevector(ab_1, cd_1, 0, 1, 4, 5);
-      v[2]             = __builtin_shufflevector(ab_0, cd_0, 2, 3, 6, 7);
-      v[3]             = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7);
+      const Value row[4]
+          = { four(of(0)), four(of(1)), four(of(2)), four(of(3)) };
+      to_columns(row, v);
     }
 
     /** The inverse of load_four(), to @p to(lane). */
     template <typename To>
     static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
     {
-      const Value xy_02 = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6);
-      const Value xy_13 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
-      const Value zw_02 = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6);
-      const Value zw_13 = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
-      set_four(to(0), __builtin_shufflevector(xy_02, zw_02, 0, 1, 4, 5));
-      set_four(to(1), __builtin_shufflevector(xy_13, zw_13, 0, 1, 4, 5));
-      set_four(to(2), __builtin_shufflevector(xy_02, zw_02, 2, 3, 6, 7));
-      set_four(to(3), __builtin_shufflevector(xy_13, zw_13, 2, 3, 6, 7));
+      Value row[4];
+      to_rows(v, row);
+      for (int l = 0; l < 4; ++l)
+        set_four(to(l), row[l]);
     }
 
     /** Four doubles, at any address of doubles. */
@@ -226,10 +215,10 @@ namespace quoin
       result = __builtin_shufflevector(a, a, 1, 0, 3, 2);
     }
 
-    /** Transposes rows, one for each lane, to vectors, one for each
-        component, and back. */
-    static QUOIN_INLINE void transpose(const Value (&row)[4],
-                                       Value (&column)[4])
+    /** Transposes rows, one for each lane, to columns, one for each
+        component. */
+    static QUOIN_INLINE void to_columns(const Value (&row)[4],
+                                        Value (&column)[4])
     {
       const Value ab_0 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
       const Value ab_1 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
@@ -239,6 +228,12 @@ namespace quoin
       column[1]        = __builtin_shufflevector(ab_1, cd_1, 0, 1, 4, 5);
       column[2]        = __builtin_shufflevector(ab_0, cd_0, 2, 3, 6, 7);
       column[3]        = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7);
+    }
+
+    /** The inverse of to_columns(). */
+    static QUOIN_INLINE void to_rows(const Value (&column)[4], Value (&row)[4])
+    {
+      to_columns(column, row);
     }
 
     /** Adds rows to the values at base + offset, one lane after the other. */
@@ -309,20 +304,21 @@ namespace quoin
     static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
     {
       Value row[4];
-      for (int l = 0; l < 4; ++l)
-        row[l] = join(Lanes<4>::four(of(l)), Lanes<4>::four(of(l + 4)));
-      transpose(row, v);
+      for (int r = 0; r < 4; ++r)
+        row[r] = join(Lanes<4>::four(of(lane_of_row(r))),
+                      Lanes<4>::four(of(lane_of_row(r) + 2)));
+      to_columns(row, v);
     }
 
     template <typename To>
     static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
     {
       Value row[4];
-      transpose(v, row);
-      for (int l = 0; l < 4; ++l)
+      to_rows(v, row);
+      for (int r = 0; r < 4; ++r)
       {
-        Lanes<4>::set_four(to(l), low(row[l]));
-        Lanes<4>::set_four(to(l + 4), high(row[l]));
+        Lanes<4>::set_four(to(lane_of_row(r)), low(row[r]));
+        Lanes<4>::set_four(to(lane_of_row(r) + 2), high(row[r]));
       }
     }
 
@@ -356,17 +352,26 @@ namespace quoin
                     __builtin_shufflevector(y, y, 4, 5, 6, 7));
     }
 
-    /** Row l has the doubles of lane l, then those of lane l + 4. */
+    /** Row r has the four doubles of this lane, then those of two lanes
+        further: columns come out of them without permutations over all of a
+        register, which are slow beside arithmetic. */
+    static constexpr int lane_of_row(const int r)
+    {
+      return r < 2 ? r : r + 2;
+    }
+
     static QUOIN_INLINE void load_rows(const char *base,
                                        const std::size_t scale,
                                        const std::uint16_t *offset,
                                        Value (&row)[4])
     {
-      for (int l = 0; l < 4; ++l)
-        row[l] = join(*reinterpret_cast<const Lanes<4>::Value *>(
-                          base + scale * offset[l]),
-                      *reinterpret_cast<const Lanes<4>::Value *>(
-                          base + scale * offset[l + 4]));
+      for (int r = 0; r < 4; ++r)
+      {
+        const std::uint16_t *o = offset + lane_of_row(r);
+        row[r]                 = join(
+                            *reinterpret_cast<const Lanes<4>::Value *>(base + scale * o[0]),
+                            *reinterpret_cast<const Lanes<4>::Value *>(base + scale * o[2]));
+      }
     }
 
     static QUOIN_INLINE Value join(const Lanes<4>::Value &first,
@@ -405,8 +410,8 @@ namespace quoin
       result = __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6);
     }
 
-    static QUOIN_INLINE void transpose(const Value (&row)[4],
-                                       Value (&column)[4])
+    static QUOIN_INLINE void to_columns(const Value (&row)[4],
+                                        Value (&column)[4])
     {
       const Value ab_0
           = __builtin_shufflevector(row[0], row[1], 0, 8, 2, 10, 4, 12, 6, 14);
@@ -416,23 +421,39 @@ namespace quoin
           = __builtin_shufflevector(row[2], row[3], 0, 8, 2, 10, 4, 12, 6, 14);
       const Value cd_1
           = __builtin_shufflevector(row[2], row[3], 1, 9, 3, 11, 5, 13, 7, 15);
-      column[0] = __builtin_shufflevector(ab_0, cd_0, 0, 1, 8, 9, 4, 5, 12, 13);
-      column[1] = __builtin_shufflevector(ab_1, cd_1, 0, 1, 8, 9, 4, 5, 12, 13);
+      column[0] = __builtin_shufflevector(ab_0, cd_0, 0, 1, 4, 5, 8, 9, 12, 13);
+      column[1] = __builtin_shufflevector(ab_1, cd_1, 0, 1, 4, 5, 8, 9, 12, 13);
       column[2]
-          = __builtin_shufflevector(ab_0, cd_0, 2, 3, 10, 11, 6, 7, 14, 15);
+          = __builtin_shufflevector(ab_0, cd_0, 2, 3, 6, 7, 10, 11, 14, 15);
       column[3]
-          = __builtin_shufflevector(ab_1, cd_1, 2, 3, 10, 11, 6, 7, 14, 15);
+          = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7, 10, 11, 14, 15);
+    }
+
+    static QUOIN_INLINE void to_rows(const Value (&column)[4], Value (&row)[4])
+    {
+      const Value xy_0 = __builtin_shufflevector(column[0], column[1], 0, 8, 2,
+                                                 10, 4, 12, 6, 14);
+      const Value xy_1 = __builtin_shufflevector(column[0], column[1], 1, 9, 3,
+                                                 11, 5, 13, 7, 15);
+      const Value zw_0 = __builtin_shufflevector(column[2], column[3], 0, 8, 2,
+                                                 10, 4, 12, 6, 14);
+      const Value zw_1 = __builtin_shufflevector(column[2], column[3], 1, 9, 3,
+                                                 11, 5, 13, 7, 15);
+      row[0] = __builtin_shufflevector(xy_0, zw_0, 0, 1, 8, 9, 2, 3, 10, 11);
+      row[1] = __builtin_shufflevector(xy_1, zw_1, 0, 1, 8, 9, 2, 3, 10, 11);
+      row[2] = __builtin_shufflevector(xy_0, zw_0, 4, 5, 12, 13, 6, 7, 14, 15);
+      row[3] = __builtin_shufflevector(xy_1, zw_1, 4, 5, 12, 13, 6, 7, 14, 15);
     }
 
     static QUOIN_INLINE void add_rows(char *base, const std::uint16_t *offset,
                                       const Value (&row)[4])
     {
-      const Lanes<4>::Value r0[4]
-          = { low(row[0]), low(row[1]), low(row[2]), low(row[3]) };
-      const Lanes<4>::Value r1[4]
-          = { high(row[0]), high(row[1]), high(row[2]), high(row[3]) };
-      Lanes<4>::add_rows(base, offset, r0);
-      Lanes<4>::add_rows(base, offset + 4, r1);
+      const auto at = [&](const int lane) -> Lanes<4>::Value &
+      { return *reinterpret_cast<Lanes<4>::Value *>(base + offset[lane]); };
+      for (int r = 0; r < 4; ++r)
+        at(lane_of_row(r)) += low(row[r]);
+      for (int r = 0; r < 4; ++r)
+        at(lane_of_row(r) + 2) += high(row[r]);
     }
   };
 } // namespace quoin

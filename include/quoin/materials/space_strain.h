@@ -57,9 +57,8 @@ namespace quoin
   };
 
   /**
-   * Rotation and Biot strain of displacement gradients. Call the constructor,
-   * find_trace(), then the rest; they are separate so that the kernel can
-   * interleave two groups of cells.
+   * Rotation and Biot strain of displacement gradients. Set H, call
+   * find_tensors() and find_trace(), then the rest.
    */
   template <typename L>
   struct PolarDecomposition
@@ -108,6 +107,17 @@ namespace quoin
     /** Finds tr e by Newton's method and what follows from it. */
     [[gnu::always_inline]] inline void find_trace()
     {
+      find_trace([](unsigned int) {});
+    }
+
+    /**
+     * The same. It is a chain of dependent operations, longer than a processor
+     * looks ahead: @p meanwhile, called with 0 and then with 1, does something
+     * else, in two parts and without branches.
+     */
+    template <typename Meanwhile>
+    [[gnu::always_inline]] inline void find_trace(const Meanwhile &meanwhile)
+    {
       const Value g1     = G[0] + G[1] + G[2];
       const Value square = (G[0] * G[0] + G[1] * G[1] + G[2] * G[2])
                            + 2. * (G[3] * G[3] + G[4] * G[4] + G[5] * G[5]);
@@ -128,11 +138,13 @@ namespace quoin
       const Value a0      = 0.5 * g1 - eighth;
       const Value b0      = 0.5 * a0 * a0 - eighth;
       const Value inverse = 1. / product_of_sums(a0, b0);
-      const Value step    = 0.5 * residual(a0, b0) * inverse;
-      const Value slope   = ((3. + b0) + (a0 + a0)) + (3. + a0) * (3. + a0);
-      a                   = a0 - step;
-      Value b             = b0 - step * (1. + a0);
-      inverse_D           = inverse + inverse * inverse * slope * step;
+      meanwhile(0);
+      const Value step  = 0.5 * residual(a0, b0) * inverse;
+      const Value slope = ((3. + b0) + (a0 + a0)) + (3. + a0) * (3. + a0);
+      a                 = a0 - step;
+      Value b           = b0 - step * (1. + a0);
+      inverse_D         = inverse + inverse * inverse * slope * step;
+      meanwhile(1);
       if (L::greater(square, Value{} + 1e-6))
       {
         // Newton's method from above, where it converges monotonically.
