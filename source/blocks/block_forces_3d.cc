@@ -5,6 +5,7 @@
 #include <quoin/block_elements/cell_tangent.h>
 #include <quoin/block_elements/mixed_cells.h>
 #include <quoin/blocks/cell_states.h>
+#include <quoin/blocks/tetrahedron_pairs.h>
 
 #include <algorithm>
 #include <limits>
@@ -133,43 +134,73 @@ namespace quoin
   {
     const auto first = chunk_nodes.begin() + first_node;
     std::sort(first, chunk_nodes.end());
-    // A lane takes the cells of a mixed tetrahedron one after the other.
-    const unsigned int joined     = data.n_joined_cells();
-    const std::size_t n_units     = (end - begin) / joined;
-    const std::size_t n_rounds    = (n_units + n_lanes - 1) / n_lanes;
-    const std::size_t n_groups    = n_rounds * joined;
-    const std::size_t first_group = offsets.size() / (4 * n_lanes);
-    chunks.push_back({ first_node, chunk_nodes.size() - first_node, first_group,
-                       n_groups, 0u, stiffness });
-    offsets.resize((first_group + n_groups) * 4 * n_lanes);
+    std::vector<std::array<unsigned int, 4>> cells;
+    for (const unsigned int *cell = begin; cell != end; ++cell)
+    {
+      cells.emplace_back();
+      for (unsigned int i = 0; i < 4; ++i)
+        cells.back()[i]
+            = std::lower_bound(first, chunk_nodes.end(), data.cells[*cell][i])
+              - first;
+    }
+    const TetrahedronPairs found
+        = pair_tetrahedra(cells, data.mixed ? parts_of_mixed : cells.size());
+    // Each part at a corner has one neighbour among the parts of a mixed
+    // tetrahedron, another one for each.
+    AssertThrow(!data.mixed || found.singles.empty(),
+                dealii::ExcInternalError());
+    Chunk chunk{
+      first_node, chunk_nodes.size() - first_node, stiffness, {}, {}
+    };
+    const unsigned int joined = data.mixed ? parts_of_mixed / 2 : 1;
+    chunk.pairs               = append_groups(found.pairs, 2, joined, begin);
+    chunk.singles             = append_groups(found.singles, 1, 1, begin);
+    chunks.push_back(chunk);
+  }
+
+  BlockForces<3>::Groups
+  BlockForces<3>::append_groups(const std::vector<TetrahedronCluster> &clusters,
+                                const unsigned int n_cells,
+                                const unsigned int joined,
+                                const unsigned int *const begin)
+  {
+    const unsigned int n_nodes = 3 + n_cells;
+    const std::size_t n_units  = clusters.size() / joined;
+    const std::size_t n_rounds = (n_units + n_lanes - 1) / n_lanes;
+    Groups groups;
+    groups.n            = n_rounds * joined;
+    groups.first_offset = offsets.size();
+    groups.first_stress = lane_stress.size();
+    offsets.resize(groups.first_offset + groups.n * n_nodes * n_lanes);
     if (!data.initial_stress.empty())
-      lane_stress.resize((first_group + n_groups) * 6 * n_lanes, 0.);
+      lane_stress.resize(groups.first_stress + groups.n * n_cells * 6 * n_lanes,
+                         0.);
     for (std::size_t lane = 0; lane < n_lanes; ++lane)
     {
       const std::size_t lane_begin = n_units * lane / n_lanes;
       const std::size_t lane_end   = n_units * (lane + 1) / n_lanes;
-      for (std::size_t k = 0; k < n_groups; ++k)
+      for (std::size_t g = 0; g < groups.n; ++g)
       {
         // Pieces have the same length or end one round earlier.
-        const std::size_t round = k / joined;
+        const std::size_t round = g / joined;
         const bool present      = lane_begin + round < lane_end;
         if (present && round + 1 == n_rounds)
-          chunks.back().last_mask |= 1u << lane;
-        const std::size_t unit  = present ? lane_begin + round : n_units - 1;
-        const unsigned int cell = begin[joined * unit + k % joined];
-        const std::size_t group = first_group + k;
-        for (unsigned int i = 0; i < 4; ++i)
-          offsets[(4 * group + i) * n_lanes + lane]
-              = sizeof(ChunkNodes::Row)
-                * (std::lower_bound(first, chunk_nodes.end(),
-                                    data.cells[cell][i])
-                   - first);
+          groups.last_mask |= 1u << lane;
+        const std::size_t unit = present ? lane_begin + round : n_units - 1;
+        const TetrahedronCluster &cluster
+            = clusters[joined * unit + g % joined];
+        for (unsigned int k = 0; k < n_nodes; ++k)
+          offsets[groups.first_offset + (n_nodes * g + k) * n_lanes + lane]
+              = sizeof(ChunkNodes::Row) * cluster.nodes[k];
         if (present && !data.initial_stress.empty())
-          for (unsigned int i = 0; i < 6; ++i)
-            lane_stress[(6 * group + i) * n_lanes + lane]
-                = -data.initial_stress[cell][i] / 6.;
+          for (unsigned int c = 0; c < n_cells; ++c)
+            for (unsigned int i = 0; i < 6; ++i)
+              lane_stress[groups.first_stress
+                          + (6 * (n_cells * g + c) + i) * n_lanes + lane]
+                  = -data.initial_stress[begin[cluster.cells[c]]][i] / 6.;
       }
     }
+    return groups;
   }
 
   template <int lanes>
@@ -177,23 +208,30 @@ namespace quoin
                                            const NodeRecord<3> *nodes,
                                            dealii::Tensor<1, 3> *force) const
   {
+    using Add              = decltype(&add_mixed_tetrahedra<lanes, true>);
     const bool with_stress = !lane_stress.empty();
-    const auto add         = data.mixed
-                                 ? (with_stress ? add_mixed_tetrahedra<lanes, true>
-                                                : add_mixed_tetrahedra<lanes, false>)
-                                 : (with_stress ? add_tetrahedra<lanes, true>
-                                                : add_tetrahedra<lanes, false>);
+    const Add add_mixed    = with_stress ? add_mixed_tetrahedra<lanes, true>
+                                         : add_mixed_tetrahedra<lanes, false>;
+    const Add add_pairs    = with_stress ? add_tetrahedra<lanes, true, 2>
+                                         : add_tetrahedra<lanes, false, 2>;
+    const Add add_singles  = with_stress ? add_tetrahedra<lanes, true, 1>
+                                         : add_tetrahedra<lanes, false, 1>;
     ChunkNodes copies;
     for (std::size_t c = tile.begin_chunk; c < tile.end_chunk; ++c)
     {
       const Chunk &chunk         = chunks[c];
       const std::uint32_t *names = &chunk_nodes[chunk.first_node];
       copies.load(names, chunk.n_nodes, nodes);
-      const std::uint16_t *offset  = &offsets[4 * lanes * chunk.first_group];
-      const SpaceStiffness &moduli = data.stiffness[chunk.stiffness];
-      const double *stress
-          = with_stress ? &lane_stress[6 * lanes * chunk.first_group] : nullptr;
-      add(offset, chunk.n_groups, chunk.last_mask, moduli, stress, copies);
+      const auto add_groups = [&](const Groups &groups, const Add add)
+      {
+        if (groups.n > 0)
+          add(&offsets[groups.first_offset], groups.n, groups.last_mask,
+              data.stiffness[chunk.stiffness],
+              with_stress ? &lane_stress[groups.first_stress] : nullptr,
+              copies);
+      };
+      add_groups(chunk.pairs, data.mixed ? add_mixed : add_pairs);
+      add_groups(chunk.singles, add_singles);
       copies.add_forces(names, chunk.n_nodes, force);
     }
   }

@@ -12,7 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/** Forces of the tetrahedra of a chunk, several at once. */
+/** Forces of the tetrahedra of a chunk, several at once. Loops over cells and
+    nodes are unrolled, because GCC keeps arrays in registers only then. */
 namespace quoin
 {
   namespace
@@ -60,18 +61,55 @@ namespace quoin
       }
     };
 
-    /** Edges of cells that go through the lanes together. */
+    /** One tetrahedron of each lane. */
     template <int lanes>
+    struct TetrahedronCell
+    {
+      using L     = Lanes<lanes>;
+      using Value = typename L::Value;
+
+      Tetrahedron<L> geometry;
+      PolarDecomposition<L> polar;
+
+      /** Forces at nodes 1, 2, 3 of the cell. @p isotropic: lambda tr e, or
+          what is in its place; it, @p mu and @p stress, if there is one, are
+          times -1/6. */
+      QUOIN_INLINE void find_forces(const Value &isotropic, const Value &mu,
+                                    const double *stress,
+                                    Value (&f)[3][3]) const
+      {
+        Value P[3][3];
+        polar.elastic_stress(isotropic, mu, P);
+        if (stress)
+        {
+          Value S[6], R[3][3], e[6], T[3][3];
+          for (int i = 0; i < 6; ++i)
+            S[i] = reinterpret_cast<const Value *>(stress)[i];
+          polar.rotation_and_strain(R, e);
+          polar.turning_stress(S, e, T);
+          for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c)
+              P[r][c]
+                  += R[r][0] * T[0][c] + R[r][1] * T[1][c] + R[r][2] * T[2][c];
+        }
+        geometry.nodal_forces(P, f);
+      }
+    };
+
+    /** Edges from node 0 of @p n_cells cells to their other nodes. */
+    template <int lanes, int n_cells>
     struct TetrahedronEdges
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
 
-      Value e[3][3]; /**< from node 0 to nodes 1, 2, 3, at rest [m] */
-      Value d[3][3]; /**< their displacements less that of node 0 [m] */
+      static constexpr int n = 2 + n_cells;
 
-      /** @p offset: of nodes 0, 1, 2, 3 of each lane, in bytes into the
-          forces, half of that into the records. */
+      Value e[n][3]; /**< at rest [m] */
+      Value d[n][3]; /**< displacements less that of node 0 [m] */
+
+      /** @p offset: of the nodes, each in all lanes, in bytes into the forces,
+          half of that into the records. */
       QUOIN_INLINE void load(const std::uint16_t *offset,
                              const ChunkNodes &nodes)
       {
@@ -79,7 +117,8 @@ namespace quoin
         Value X0[4], u0[4];
         L::load_rows(records, 2, offset, X0);
         L::load_rows(records + 32, 2, offset, u0);
-        for (int k = 0; k < 3; ++k)
+#pragma GCC unroll 4
+        for (int k = 0; k < n; ++k)
         {
           Value X[4], u[4], column[4];
           L::load_rows(records, 2, offset + (k + 1) * lanes, X);
@@ -99,72 +138,85 @@ namespace quoin
       }
     };
 
-    /** Cells that go through the lanes together. */
-    template <int lanes, bool with_stress>
+    /**
+     * One or two tetrahedra of each lane, two of which share three nodes: the
+     * first has nodes 0, 1, 2, 3, the second 0, 2, 1, 4.
+     */
+    template <int lanes, bool with_stress, int n_cells>
     struct TetrahedronGroup
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
-      using Edges = TetrahedronEdges<lanes>;
+      using Edges = TetrahedronEdges<lanes, n_cells>;
 
-      Tetrahedron<L> cell;
-      PolarDecomposition<L> polar;
+      static constexpr int n_nodes       = 3 + n_cells;
+      static constexpr int offset_stride = n_nodes * lanes;
+      static constexpr int stress_stride
+          = with_stress ? 6 * n_cells * lanes : 0;
+      static constexpr int edge_of[2][3] = { { 0, 1, 2 }, { 1, 0, 3 } };
 
-      /** @p offset as of TetrahedronEdges::load(). */
+      TetrahedronCell<lanes> cells[n_cells];
+
       QUOIN_INLINE void load(const std::uint16_t *offset,
                              const ChunkNodes &nodes)
       {
         Edges edges;
         edges.load(offset, nodes);
-        set_edges(edges);
+#pragma GCC unroll 2
+        for (int c = 0; c < n_cells; ++c)
+          set_edges(c, edges);
       }
 
-      QUOIN_INLINE void set_edges(const Edges &edges)
-      {
-        cell.set_edges(edges.e);
-        cell.gradient(edges.d, polar.H);
-        polar.find_tensors();
-      }
-
-      /** Finds the trace of the strain and loads the @p next group meanwhile.
-       */
-      QUOIN_INLINE void find_trace_and_load(TetrahedronGroup &next,
-                                            const std::uint16_t *offset_of_next,
-                                            const ChunkNodes &nodes)
+      /** Finds the traces of the strains and loads the @p next group
+          meanwhile. */
+      QUOIN_INLINE void
+      find_traces_and_load(TetrahedronGroup &next,
+                           const std::uint16_t *offset_of_next,
+                           const ChunkNodes &nodes)
       {
         Edges edges;
-        polar.find_trace([&](const unsigned int part)
-                             __attribute__((always_inline)) {
-                               if (part == 0)
-                                 edges.load(offset_of_next, nodes);
-                               else
-                                 next.set_edges(edges);
-                             });
+#pragma GCC unroll 2
+        for (int c = 0; c < n_cells; ++c)
+          cells[c].polar.find_trace([&](const unsigned int part)
+                                        __attribute__((always_inline)) {
+                                          if (part == 1)
+                                            next.set_edges(c, edges);
+                                          else if (c == 0)
+                                            edges.load(offset_of_next, nodes);
+                                        });
       }
 
-      /** @p isotropic: lambda tr e, or what is in its place; it, @p mu and
-          @p stress are times -1/6. */
+      QUOIN_INLINE void find_traces()
+      {
+        for (auto &cell : cells)
+          cell.polar.find_trace();
+      }
+
+      /** @p isotropic, @p mu and @p stress as of
+          TetrahedronCell::find_forces(). */
       QUOIN_INLINE void add_forces(const std::uint16_t *offset,
-                                   const Value &isotropic, const Value &mu,
-                                   const double *stress, ChunkNodes &nodes)
+                                   const Value (&isotropic)[n_cells],
+                                   const Value &mu, const double *stress,
+                                   ChunkNodes &nodes) const
       {
         char *sums = reinterpret_cast<char *>(nodes.force);
-        Value P[3][3], f[3][3], rest[4]{};
-        polar.elastic_stress(isotropic, mu, P);
-        if constexpr (with_stress)
+        Value f[n_nodes - 1][3], rest[4]{};
+#pragma GCC unroll 2
+        for (int c = 0; c < n_cells; ++c)
         {
-          Value S[6], R[3][3], e[6], T[3][3];
-          for (int i = 0; i < 6; ++i)
-            S[i] = reinterpret_cast<const Value *>(stress)[i];
-          polar.rotation_and_strain(R, e);
-          polar.turning_stress(S, e, T);
-          for (int r = 0; r < 3; ++r)
-            for (int c = 0; c < 3; ++c)
-              P[r][c]
-                  += R[r][0] * T[0][c] + R[r][1] * T[1][c] + R[r][2] * T[2][c];
+          Value of_cell[3][3];
+          cells[c].find_forces(isotropic[c], mu,
+                               with_stress ? stress + 6 * lanes * c : nullptr,
+                               of_cell);
+          for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < 3; ++i)
+            {
+              Value &sum = f[edge_of[c][k]][i];
+              sum = c == 0 || k == 2 ? of_cell[k][i] : sum + of_cell[k][i];
+            }
         }
-        cell.nodal_forces(P, f);
-        for (int k = 0; k < 3; ++k)
+#pragma GCC unroll 4
+        for (int k = 0; k < n_nodes - 1; ++k)
         {
           const Value column[4] = { f[k][0], f[k][1], f[k][2], Value{} };
           Value row[4];
@@ -174,6 +226,22 @@ namespace quoin
           L::add_rows(sums, offset + (k + 1) * lanes, row);
         }
         L::add_rows(sums, offset, rest);
+      }
+
+    private:
+      QUOIN_INLINE void set_edges(const int c, const Edges &edges)
+      {
+        Value e[3][3], d[3][3];
+        for (int k = 0; k < 3; ++k)
+          for (int i = 0; i < 3; ++i)
+          {
+            e[k][i] = edges.e[edge_of[c][k]][i];
+            d[k][i] = edges.d[edge_of[c][k]][i];
+          }
+        auto &[geometry, polar] = cells[c];
+        geometry.set_edges(e);
+        geometry.gradient(d, polar.H);
+        polar.find_tensors();
       }
     };
 
@@ -189,47 +257,50 @@ namespace quoin
 
     /**
      * Adds the forces of @p n groups to those of the nodes. Lanes without a
-     * bit in @p last_mask have no cell of their own in the last group.
+     * bit in @p last_mask have no cells of their own in the last group.
      *
      * The next group is loaded while the trace of one group's strain is found,
-     * a long chain of dependent operations. No branch may be between the two,
-     * or they do not overlap.
+     * a long chain of dependent operations.
      */
-    template <int lanes, bool with_stress>
+    template <int lanes, bool with_stress, int n_cells>
     __attribute__((noinline)) void
     add_tetrahedra(const std::uint16_t *offset, const std::size_t n,
                    const unsigned int last_mask,
                    const SpaceStiffness &stiffness, const double *stress,
                    ChunkNodes &nodes)
     {
-      using Value                 = typename Lanes<lanes>::Value;
-      constexpr int stress_stride = with_stress ? 6 * lanes : 0;
+      using Value = typename Lanes<lanes>::Value;
+      using Group = TetrahedronGroup<lanes, with_stress, n_cells>;
       LameModuli<Lanes<lanes>> moduli{ Value{} - stiffness.lambda / 6.,
                                        Value{} - stiffness.mu / 6. };
-      using Group           = TetrahedronGroup<lanes, with_stress>;
-      const auto add_forces = [&](Group & group) __attribute__((always_inline))
+      const auto add_forces
+          = [&](const Group &group) __attribute__((always_inline))
       {
-        group.add_forces(offset, moduli.lambda * group.polar.a, moduli.mu,
-                         stress, nodes);
-        offset += 4 * lanes;
-        stress += stress_stride;
+        Value isotropic[n_cells];
+#pragma GCC unroll 2
+        for (int c = 0; c < n_cells; ++c)
+          isotropic[c] = moduli.lambda * group.cells[c].polar.a;
+        group.add_forces(offset, isotropic, moduli.mu, stress, nodes);
+        offset += Group::offset_stride;
+        stress += Group::stress_stride;
       };
       Group group[2];
       group[0].load(offset, nodes);
       for (std::size_t g = 0; g + 1 < n; ++g)
       {
-        group[g % 2].find_trace_and_load(group[(g + 1) % 2], offset + 4 * lanes,
-                                         nodes);
+        group[g % 2].find_traces_and_load(group[(g + 1) % 2],
+                                          offset + Group::offset_stride, nodes);
         add_forces(group[g % 2]);
       }
       Group &last = group[(n - 1) % 2];
-      last.polar.find_trace();
+      last.find_traces();
       keep_lanes<lanes>(last_mask, moduli);
       add_forces(last);
     }
 
-    /** add_tetrahedra() of mixed ones, each eight groups. The cells of a lane
-        share K times the mean of their tr e by volume, K = lambda + 2/3 mu. */
+    /** add_tetrahedra() of mixed ones, each four groups of two. The cells of a
+        lane share K times the mean of their tr e by volume,
+        K = lambda + 2/3 mu. */
     template <int lanes, bool with_stress>
     __attribute__((noinline)) void
     add_mixed_tetrahedra(const std::uint16_t *offset, const std::size_t n,
@@ -237,35 +308,38 @@ namespace quoin
                          const SpaceStiffness &stiffness, const double *stress,
                          ChunkNodes &nodes)
     {
-      using Value                 = typename Lanes<lanes>::Value;
-      constexpr int stress_stride = with_stress ? 6 * lanes : 0;
+      using Value              = typename Lanes<lanes>::Value;
+      using Group              = TetrahedronGroup<lanes, with_stress, 2>;
+      constexpr unsigned int m = parts_of_mixed / 2;
       LameModuli<Lanes<lanes>> moduli{ Value{} - stiffness.lambda / 6.,
                                        Value{} - stiffness.mu / 6. };
-      TetrahedronGroup<lanes, with_stress> group[parts_of_mixed];
-      for (std::size_t g = 0; g < n; g += parts_of_mixed)
+      Group group[m];
+      for (std::size_t g = 0; g < n; g += m)
       {
-        if (g + parts_of_mixed == n)
+        if (g + m == n)
           keep_lanes<lanes>(last_mask, moduli);
-        Value volume{}, growth{};
         group[0].load(offset, nodes);
-        for (unsigned int k = 0; k < parts_of_mixed; ++k)
-        {
-          if (k + 1 < parts_of_mixed)
-            group[k].find_trace_and_load(group[k + 1],
-                                         offset + 4 * lanes * (k + 1), nodes);
-          else
-            group[k].polar.find_trace();
-          volume += group[k].cell.det;
-          growth += group[k].cell.det * group[k].polar.a;
-        }
+        for (unsigned int k = 0; k + 1 < m; ++k)
+          group[k].find_traces_and_load(
+              group[k + 1], offset + Group::offset_stride * (k + 1), nodes);
+        group[m - 1].find_traces();
+        Value volume{}, growth{};
+        for (const Group &pair : group)
+          for (const auto &[geometry, polar] : pair.cells)
+          {
+            volume += geometry.det;
+            growth += geometry.det * polar.a;
+          }
         const Value two_thirds = moduli.mu * (2. / 3.);
         const Value mean = (moduli.lambda + two_thirds) * (growth / volume);
-        for (unsigned int k = 0; k < parts_of_mixed; ++k)
+        for (const Group &pair : group)
         {
-          group[k].add_forces(offset, mean - two_thirds * group[k].polar.a,
-                              moduli.mu, stress, nodes);
-          offset += 4 * lanes;
-          stress += stress_stride;
+          const Value isotropic[2]
+              = { mean - two_thirds * pair.cells[0].polar.a,
+                  mean - two_thirds * pair.cells[1].polar.a };
+          pair.add_forces(offset, isotropic, moduli.mu, stress, nodes);
+          offset += Group::offset_stride;
+          stress += Group::stress_stride;
         }
       }
     }

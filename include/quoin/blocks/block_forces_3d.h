@@ -8,13 +8,17 @@
 
 namespace quoin
 {
+  struct TetrahedronCluster;
+
   /**
    * Internal forces of blocks of tetrahedra (tetrahedron.h has the element)
    * that undergo any rotation, linear elastic or elastoplastic; otherwise as
    * BlockForces<2>.
    *
    * The cells of a tile are taken in chunks of few nodes, which are copied to
-   * the first level cache before and added to the forces after. Lane l takes
+   * the first level cache before and added to the forces after. In a chunk
+   * they are paired across common faces, so that two cells load five nodes
+   * instead of eight; those that are left over come one by one. Lane l takes
    * the l-th part of a chunk, so that cells that are computed together have no
    * nodes in common; it takes the parts of a mixed tetrahedron one after the
    * other. Geometry is computed from the positions in each step:
@@ -92,16 +96,25 @@ namespace quoin
     double update(const NodeRecord<3> *nodes, PlasticHistory &history) const;
 
   private:
+    /** Cells that go through the lanes together, or two of each lane. */
+    struct Groups
+    {
+      std::size_t n            = 0;
+      std::size_t first_offset = 0; /**< index into offsets */
+      std::size_t first_stress = 0; /**< index into lane_stress */
+      unsigned int last_mask   = 0; /**< lanes that have a cell in the last
+                                       group, or the last four pairs of mixed
+                                       tetrahedra */
+    };
+
     /** Cells of equal stiffness whose nodes are copied together. */
     struct Chunk
     {
       std::size_t first_node; /**< index into chunk_nodes */
       std::size_t n_nodes;
-      std::size_t first_group; /**< index into offsets and lane_stress */
-      std::size_t n_groups;
-      unsigned int last_mask; /**< lanes that have a cell in the last group,
-                                 or the last eight of mixed tetrahedra */
       unsigned int stiffness; /**< index of the stiffness */
+      Groups pairs;
+      Groups singles;
     };
 
     struct Tile
@@ -123,6 +136,13 @@ namespace quoin
     void append_chunk(const unsigned int *begin, const unsigned int *end,
                       std::size_t first_node, unsigned int stiffness);
 
+    /** Groups of @p clusters of @p n_cells cells, whose nodes and cells are
+        numbered within the chunk of the cells from @p begin on. A lane takes
+        @p joined ones that follow one another. */
+    Groups append_groups(const std::vector<TetrahedronCluster> &clusters,
+                         unsigned int n_cells, unsigned int joined,
+                         const unsigned int *begin);
+
     template <int lanes>
     void add_forces_in_lanes(const Tile &tile, const NodeRecord<3> *nodes,
                              dealii::Tensor<1, 3> *force) const;
@@ -134,11 +154,12 @@ namespace quoin
     std::vector<std::uint32_t> chunk_nodes;
     std::vector<unsigned int> plastic_cells; /**< cells with a yield law */
 
-    /** Nodes 0, 1, 2, 3 of each lane, in bytes into the chunk's forces. */
+    /** Nodes of each group, each in all lanes, in bytes into the chunk's
+        forces. */
     AlignedArray<std::uint16_t> offsets;
 
-    /** -1/6 of the initial stress, per group its six components in all
-        lanes. */
+    /** -1/6 of the initial stress, per cell of a group its six components in
+        all lanes. */
     AlignedArray<double> lane_stress;
   };
 } // namespace quoin

@@ -186,9 +186,12 @@ TEST(BlockForces3, LanesAgreeWithCells)
             blocks.prepare(mesh.data, options);
             const Forces3 by_lane = mesh.forces(blocks);
             const Forces3 by_cell = mesh.forces(blocks, true);
-            // Both lose to a rotation what its digits are worth.
+            // Both lose to a rotation what its digits are worth, each in its
+            // own way, since in a pair edges start at another node: an eps of
+            // strain times the area of a face, 0.02 m^2, in some twenty cells
+            // around a node.
             const double rounding = 1e-14 * largest(by_cell)
-                                    + (angle > 0. ? 1e-17 * stone.young : 0.);
+                                    + (angle > 0. ? 6e-17 * stone.young : 0.);
             EXPECT_LT(largest_difference(by_lane, by_cell), rounding)
                 << size << ' ' << angle << ' ' << largest(by_cell);
           }
