@@ -203,6 +203,21 @@ namespace quoin
     return groups;
   }
 
+  template <typename Do>
+  void BlockForces<3>::for_chunks_of(const Tile &tile,
+                                     const NodeRecord<3> *nodes,
+                                     const Do &act) const
+  {
+    ChunkNodes copies;
+    for (std::size_t c = tile.begin_chunk; c < tile.end_chunk; ++c)
+    {
+      const Chunk &chunk         = chunks[c];
+      const std::uint32_t *names = &chunk_nodes[chunk.first_node];
+      copies.load(names, chunk.n_nodes, nodes);
+      act(chunk, copies);
+    }
+  }
+
   template <int lanes>
   void BlockForces<3>::add_forces_in_lanes(const Tile &tile,
                                            const NodeRecord<3> *nodes,
@@ -216,24 +231,40 @@ namespace quoin
                                          : add_tetrahedra<lanes, false, 2>;
     const Add add_singles  = with_stress ? add_tetrahedra<lanes, true, 1>
                                          : add_tetrahedra<lanes, false, 1>;
-    ChunkNodes copies;
-    for (std::size_t c = tile.begin_chunk; c < tile.end_chunk; ++c)
-    {
-      const Chunk &chunk         = chunks[c];
-      const std::uint32_t *names = &chunk_nodes[chunk.first_node];
-      copies.load(names, chunk.n_nodes, nodes);
-      const auto add_groups = [&](const Groups &groups, const Add add)
-      {
-        if (groups.n > 0)
-          add(&offsets[groups.first_offset], groups.n, groups.last_mask,
-              data.stiffness[chunk.stiffness],
-              with_stress ? &lane_stress[groups.first_stress] : nullptr,
-              copies);
-      };
-      add_groups(chunk.pairs, data.mixed ? add_mixed : add_pairs);
-      add_groups(chunk.singles, add_singles);
-      copies.add_forces(names, chunk.n_nodes, force);
-    }
+    for_chunks_of(tile, nodes,
+                  [&](const Chunk &chunk, ChunkNodes &copies)
+                  {
+                    apply(data.mixed ? add_mixed : add_pairs, chunk,
+                          chunk.pairs, copies);
+                    apply(add_singles, chunk, chunk.singles, copies);
+                    copies.add_forces(&chunk_nodes[chunk.first_node],
+                                      chunk.n_nodes, force);
+                  });
+  }
+
+  template <int lanes>
+  double BlockForces<3>::energy_in_lanes(const Tile &tile,
+                                         const NodeRecord<3> *nodes) const
+  {
+    using Energy           = decltype(&energy_of_mixed_tetrahedra<lanes, true>);
+    const bool with_stress = !lane_stress.empty();
+    const Energy of_mixed  = with_stress
+                                 ? energy_of_mixed_tetrahedra<lanes, true>
+                                 : energy_of_mixed_tetrahedra<lanes, false>;
+    const Energy of_pairs  = with_stress ? energy_of_tetrahedra<lanes, true, 2>
+                                         : energy_of_tetrahedra<lanes, false, 2>;
+    const Energy of_singles = with_stress
+                                  ? energy_of_tetrahedra<lanes, true, 1>
+                                  : energy_of_tetrahedra<lanes, false, 1>;
+    double energy           = 0.;
+    for_chunks_of(tile, nodes,
+                  [&](const Chunk &chunk, const ChunkNodes &copies)
+                  {
+                    energy += apply(data.mixed ? of_mixed : of_pairs, chunk,
+                                    chunk.pairs, copies)
+                              + apply(of_singles, chunk, chunk.singles, copies);
+                  });
+    return energy;
   }
 
   double BlockForces<3>::add_forces(const unsigned int tile,
@@ -251,6 +282,21 @@ namespace quoin
          k += data.n_joined_cells())
       dissipated += add(data, plastic_cells[k], nodes, history, force);
     return dissipated;
+  }
+
+  double BlockForces<3>::strain_energy(const NodeRecord<3> *nodes,
+                                       const PlasticHistory &history) const
+  {
+    double energy = 0.;
+    for (const Tile &tile : tiles)
+    {
+      energy += n_lanes == 8 ? energy_in_lanes<8>(tile, nodes)
+                             : energy_in_lanes<4>(tile, nodes);
+      for (std::size_t k = tile.begin_plastic; k < tile.end_plastic;
+           k += data.n_joined_cells())
+        energy += cell_energy(data, nodes, history, plastic_cells[k]);
+    }
+    return energy;
   }
 
   void BlockForces<3>::add_stiffness_bound(
@@ -350,8 +396,8 @@ namespace quoin
   void BlockForces<3>::add_stored_energy(const State<3> &state,
                                          EnergyAccounts &energies) const
   {
-    energies.strain += strain_energy(*this, state.nodes.data(),
-                                     state.get<PlasticHistory>());
+    energies.strain
+        += strain_energy(state.nodes.data(), state.get<PlasticHistory>());
   }
 
   void BlockForces<3>::add_forces(const StepContext &step, State<3> &state,

@@ -146,36 +146,33 @@ namespace quoin
   double strain_energy(const BlockForces<3> &blocks, const NodeRecord<3> *nodes,
                        const PlasticHistory &history)
   {
-    const BlockForcesData<3> &data = blocks.cell_data();
-    double energy                  = 0.;
-    for (std::size_t k = 0; k < data.cells.size(); k += data.n_joined_cells())
+    return blocks.strain_energy(nodes, history);
+  }
+
+  double cell_energy(const BlockForcesData<3> &data, const NodeRecord<3> *nodes,
+                     const PlasticHistory &history, const std::size_t cell)
+  {
+    if (data.mixed)
+      return mixed_energy(data, nodes, history, cell);
+    const CellMotion motion        = cell_motion(data, nodes, cell);
+    const SpaceTensor s0           = data.initial_stress_of(cell);
+    const SpaceMohrCoulomb *yields = data.law_of(cell);
+    double density;
+    if (yields && history.yielding[cell] != 0)
     {
-      if (data.mixed)
-      {
-        energy += mixed_energy(data, nodes, history, k);
-        continue;
-      }
-      const CellMotion motion        = cell_motion(data, nodes, k);
-      const SpaceTensor s0           = data.initial_stress_of(k);
-      const SpaceMohrCoulomb *yields = data.law_of(k);
-      double density;
-      if (yields && history.yielding[k] != 0)
-      {
-        const SpaceStrain strain
-            = elastic_strain(motion.H, history.space_cells[k].inverse_stretch);
-        density = yields->stored_energy(yields->trial_stress(
-                      space_plastic_point(history, k), strain.e))
-                  - yields->stored_energy(s0);
-      }
-      else
-      {
-        const SpaceStrain strain(motion.H);
-        const SpaceTensor s = elastic_stress(data.stiffness_of(k), strain.e);
-        density = 0.5 * contraction(s, strain.e) + contraction(s0, strain.e);
-      }
-      energy += motion.geometry.det / 6. * density;
+      const SpaceStrain strain
+          = elastic_strain(motion.H, history.space_cells[cell].inverse_stretch);
+      density = yields->stored_energy(yields->trial_stress(
+                    space_plastic_point(history, cell), strain.e))
+                - yields->stored_energy(s0);
     }
-    return energy;
+    else
+    {
+      const SpaceStrain strain(motion.H);
+      const SpaceTensor s = elastic_stress(data.stiffness_of(cell), strain.e);
+      density = 0.5 * contraction(s, strain.e) + contraction(s0, strain.e);
+    }
+    return motion.geometry.det / 6. * density;
   }
 
   SpaceTensor cell_stress(const BlockForces<3> &blocks,

@@ -94,6 +94,24 @@ namespace quoin
         }
         geometry.nodal_forces(P, f);
       }
+
+      /** Energy with the arguments of find_forces(), but for the part of the
+          trace of the strain: mu e : e + S : e, times the volume. */
+      QUOIN_INLINE void find_energy(const Value &mu, const double *stress,
+                                    Value &energy) const
+      {
+        Value R[3][3], e[6];
+        polar.rotation_and_strain(R, e);
+        Value density{};
+        for (int i = 0; i < 6; ++i)
+        {
+          Value s = mu * e[i];
+          if (stress)
+            s += reinterpret_cast<const Value *>(stress)[i];
+          density += (i < 3 ? s : s + s) * e[i];
+        }
+        energy = geometry.det * density;
+      }
     };
 
     /** Edges from node 0 of @p n_cells cells to their other nodes. */
@@ -342,6 +360,100 @@ namespace quoin
           stress += Group::stress_stride;
         }
       }
+    }
+
+    template <int lanes>
+    double sum_of_lanes(const typename Lanes<lanes>::Value &value)
+    {
+      double sum = 0.;
+      for (int l = 0; l < lanes; ++l)
+        sum += value[l];
+      return sum;
+    }
+
+    /** Strain energy of the cells of add_tetrahedra() [J]. */
+    template <int lanes, bool with_stress, int n_cells>
+    __attribute__((noinline)) double
+    energy_of_tetrahedra(const std::uint16_t *offset, const std::size_t n,
+                         const unsigned int last_mask,
+                         const SpaceStiffness &stiffness, const double *stress,
+                         const ChunkNodes &nodes)
+    {
+      using Value = typename Lanes<lanes>::Value;
+      using Group = TetrahedronGroup<lanes, with_stress, n_cells>;
+      LameModuli<Lanes<lanes>> moduli{ Value{} - stiffness.lambda / 6.,
+                                       Value{} - stiffness.mu / 6. };
+      Value energy{};
+      for (std::size_t g = 0; g < n; ++g)
+      {
+        if (g + 1 == n)
+          keep_lanes<lanes>(last_mask, moduli);
+        Group group;
+        group.load(offset, nodes);
+        group.find_traces();
+#pragma GCC unroll 2
+        for (int c = 0; c < n_cells; ++c)
+        {
+          const auto &cell = group.cells[c];
+          Value of_cell;
+          cell.find_energy(moduli.mu,
+                           with_stress ? stress + 6 * lanes * c : nullptr,
+                           of_cell);
+          energy += of_cell
+                    + cell.geometry.det * (0.5 * moduli.lambda)
+                          * (cell.polar.a * cell.polar.a);
+        }
+        offset += Group::offset_stride;
+        stress += Group::stress_stride;
+      }
+      return -sum_of_lanes<lanes>(energy);
+    }
+
+    /** Strain energy of the cells of add_mixed_tetrahedra() [J]: K/2 times the
+        square of the mean of tr e, and of e the deviator alone. */
+    template <int lanes, bool with_stress>
+    __attribute__((noinline)) double
+    energy_of_mixed_tetrahedra(const std::uint16_t *offset, const std::size_t n,
+                               const unsigned int last_mask,
+                               const SpaceStiffness &stiffness,
+                               const double *stress, const ChunkNodes &nodes)
+    {
+      using Value = typename Lanes<lanes>::Value;
+      using Group = TetrahedronGroup<lanes, with_stress, 2>;
+      LameModuli<Lanes<lanes>> moduli{ Value{} - stiffness.lambda / 6.,
+                                       Value{} - stiffness.mu / 6. };
+      Value energy{}, volume{}, growth{};
+      for (std::size_t g = 0; g < n; ++g)
+      {
+        constexpr unsigned int m = parts_of_mixed / 2;
+        if (g + m == n)
+          keep_lanes<lanes>(last_mask, moduli);
+        Group group;
+        group.load(offset, nodes);
+        group.find_traces();
+#pragma GCC unroll 2
+        for (int c = 0; c < 2; ++c)
+        {
+          const auto &cell = group.cells[c];
+          Value of_cell;
+          cell.find_energy(moduli.mu,
+                           with_stress ? stress + 6 * lanes * c : nullptr,
+                           of_cell);
+          const Value growth_of_cell = cell.geometry.det * cell.polar.a;
+          energy += of_cell - moduli.mu * growth_of_cell * cell.polar.a / 3.;
+          volume += cell.geometry.det;
+          growth += growth_of_cell;
+        }
+        if (g % m == m - 1)
+        {
+          energy += (0.5 * moduli.lambda + moduli.mu / 3.) * growth
+                    * (growth / volume);
+          volume = growth = Value{};
+        }
+        offset += Group::offset_stride;
+        stress += Group::stress_stride;
+      }
+      return -sum_of_lanes<lanes>(energy);
     }
   } // namespace
 } // namespace quoin

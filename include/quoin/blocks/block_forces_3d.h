@@ -81,6 +81,10 @@ namespace quoin
                       PlasticHistory &history,
                       dealii::Tensor<1, 3> *force) const;
 
+    /** strain_energy() of cell_states.h [J]. */
+    double strain_energy(const NodeRecord<3> *nodes,
+                         const PlasticHistory &history) const;
+
     /**
      * Adds the forces of stiffness-proportional damping, cell by cell: those
      * of the stress @p beta [s] times the stiffness times dU/dt. Linear in
@@ -143,9 +147,35 @@ namespace quoin
                          unsigned int n_cells, unsigned int joined,
                          const unsigned int *begin);
 
+    /** Calls @p act(chunk, copies of its nodes, without a force) for the
+        chunks of a tile. */
+    template <typename Do>
+    void for_chunks_of(const Tile &tile, const NodeRecord<3> *nodes,
+                       const Do &act) const;
+
+    /** Calls a function of tetrahedron_kernel.h for groups of a chunk. */
+    template <typename Kernel, typename Nodes>
+    auto apply(const Kernel kernel, const Chunk &chunk, const Groups &groups,
+               Nodes &nodes) const
+    {
+      using Result
+          = decltype(kernel(nullptr, 0, 0, data.stiffness[0], nullptr, nodes));
+      return groups.n == 0
+                 ? Result()
+                 : kernel(&offsets[groups.first_offset], groups.n,
+                          groups.last_mask, data.stiffness[chunk.stiffness],
+                          lane_stress.empty()
+                              ? nullptr
+                              : &lane_stress[groups.first_stress],
+                          nodes);
+    }
+
     template <int lanes>
     void add_forces_in_lanes(const Tile &tile, const NodeRecord<3> *nodes,
                              dealii::Tensor<1, 3> *force) const;
+
+    template <int lanes>
+    double energy_in_lanes(const Tile &tile, const NodeRecord<3> *nodes) const;
 
     BlockForcesData<3> data;
     unsigned int n_lanes = 0;

@@ -21,6 +21,11 @@ namespace quoin
   double strain_energy(const BlockForces<3> &blocks, const NodeRecord<3> *nodes,
                        const PlasticHistory &history);
 
+  /** Part of strain_energy() of one cell, or of the cells of a mixed
+      tetrahedron of which @p cell is the first [J]. */
+  double cell_energy(const BlockForcesData<3> &data, const NodeRecord<3> *nodes,
+                     const PlasticHistory &history, std::size_t cell);
+
   /**
    * Stress [Pa] and, if asked for, strain of a cell in the fixed frame:
    * R S R^T and R e R^T. In the plane the stress is xx, yy, xy, zz, the strain

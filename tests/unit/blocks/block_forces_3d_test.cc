@@ -194,6 +194,7 @@ TEST(BlockForces3, LanesAgreeWithCells)
                                     + (angle > 0. ? 6e-17 * stone.young : 0.);
             EXPECT_LT(largest_difference(by_lane, by_cell), rounding)
                 << size << ' ' << angle << ' ' << largest(by_cell);
+            expect_energy_of_cells(blocks, mesh, size);
           }
 }
 

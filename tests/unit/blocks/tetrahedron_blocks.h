@@ -12,6 +12,8 @@
 
 #include <Eigen/Dense>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -253,6 +255,25 @@ namespace quoin::test
       }
     }
   };
+
+  /** Expects that the energy of lanes is that of cells one by one. Of strains
+      of size @p strain a rotation leaves so many digits less. */
+  inline void expect_energy_of_cells(const BlockForces<3> &blocks,
+                                     const TetrahedronBlocks &mesh,
+                                     const double strain)
+  {
+    double sum = 0., size = 0.;
+    for (std::size_t k = 0; k < mesh.data.cells.size();
+         k += mesh.data.n_joined_cells())
+    {
+      const double energy = cell_energy(mesh.data, mesh.nodes.data(), {}, k);
+      sum += energy;
+      size += std::abs(energy);
+    }
+    EXPECT_GT(size, 0.);
+    EXPECT_NEAR(strain_energy(blocks, mesh.nodes.data(), {}), sum,
+                std::max(1e-13, 1e-16 / strain) * size);
+  }
 } // namespace quoin::test
 
 #endif
