@@ -240,6 +240,28 @@ namespace quoin
   }
 
   template <int lanes>
+  double BlockForces<2>::energy_in_lanes(const Tile &tile,
+                                         const NodeRecord<2> *nodes) const
+  {
+    const auto energy_of = lane_stress.empty() ? energy_of_strips<lanes, false>
+                                               : energy_of_strips<lanes, true>;
+    double energy        = 0.;
+    for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
+    {
+      const Run &run = runs[r];
+      if (!data.law(run.stiffness))
+        energy += energy_of({ &offsets[run.first_step * lanes],
+                              &masks[run.first_step], run.n_steps },
+                            { run.bulk, run.shear },
+                            lane_stress.empty()
+                                ? nullptr
+                                : &lane_stress[3 * run.first_step * lanes],
+                            nodes + tile.nodes.begin);
+    }
+    return energy;
+  }
+
+  template <int lanes>
   void BlockForces<2>::add_viscous_forces_in_lanes(
       const Tile &tile, const NodeRecord<2> *nodes,
       const dealii::Tensor<1, 2> *velocity, const double beta,
@@ -287,8 +309,24 @@ namespace quoin
   void BlockForces<2>::add_stored_energy(const State<2> &state,
                                          EnergyAccounts &energies) const
   {
-    energies.strain += strain_energy(*this, state.nodes.data(),
-                                     state.get<PlasticHistory>());
+    energies.strain
+        += strain_energy(state.nodes.data(), state.get<PlasticHistory>());
+  }
+
+  double BlockForces<2>::strain_energy(const NodeRecord<2> *nodes,
+                                       const PlasticHistory &history) const
+  {
+    // Strips are of linear triangles.
+    double energy = 0.;
+    if (!data.quadratic)
+      for (const Tile &tile : tiles)
+        energy += n_lanes == 8 ? energy_in_lanes<8>(tile, nodes)
+                               : energy_in_lanes<4>(tile, nodes);
+    if (data.quadratic || data.is_plastic())
+      for (std::size_t k = 0; k < data.cells.size(); ++k)
+        if (data.quadratic || data.law_of(k))
+          energy += cell_energy(data, nodes, history, k);
+    return energy;
   }
 
   void BlockForces<2>::add_forces(const StepContext &step, State<2> &state,

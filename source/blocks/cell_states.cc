@@ -137,30 +137,30 @@ namespace quoin
   double strain_energy(const BlockForces<2> &blocks, const NodeRecord<2> *nodes,
                        const PlasticHistory &history)
   {
-    const BlockForcesData<2> &data = blocks.cell_data();
-    double energy                  = 0.;
-    for (std::size_t k = 0; k < data.cells.size(); ++k)
+    return blocks.strain_energy(nodes, history);
+  }
+
+  double cell_energy(const BlockForcesData<2> &data, const NodeRecord<2> *nodes,
+                     const PlasticHistory &history, const std::size_t cell)
+  {
+    double area;
+    const auto gradient       = cell_gradient(data, nodes, cell, &area);
+    const auto s0             = data.initial_stress_of(cell);
+    const MohrCoulomb *yields = data.law_of(cell);
+    double density;
+    if (yields && history.yielding[cell] != 0)
+      density = yields->stored_energy(yields->trial_stress(
+                    plastic_point(history, cell),
+                    elastic_strain(gradient, history, cell).e))
+                - yields->stored_energy(s0);
+    else
     {
-      double area;
-      const auto gradient       = cell_gradient(data, nodes, k, &area);
-      const auto s0             = data.initial_stress_of(k);
-      const MohrCoulomb *yields = data.law_of(k);
-      double density;
-      if (yields && history.yielding[k] != 0)
-        density = yields->stored_energy(yields->trial_stress(
-                      plastic_point(history, k),
-                      elastic_strain(gradient, history, k).e))
-                  - yields->stored_energy(s0);
-      else
-      {
-        const PlaneTensor e = CorotatedStrain(gradient).e;
-        const auto s        = elastic_stress(data.stiffness_of(k), e);
-        density = (0.5 * s[0] + s0[0]) * e[0] + (0.5 * s[1] + s0[1]) * e[1]
-                  + 2. * (0.5 * s[2] + s0[2]) * e[2];
-      }
-      energy += data.thickness_of(k) * area * density;
+      const PlaneTensor e = CorotatedStrain(gradient).e;
+      const auto s        = elastic_stress(data.stiffness_of(cell), e);
+      density = (0.5 * s[0] + s0[0]) * e[0] + (0.5 * s[1] + s0[1]) * e[1]
+                + 2. * (0.5 * s[2] + s0[2]) * e[2];
     }
-    return energy;
+    return data.thickness_of(cell) * area * density;
   }
 
   std::array<double, 4> cell_stress(const BlockForces<2> &blocks,

@@ -300,6 +300,58 @@ namespace quoin
       L::add(sums, end - lanes, f1.x, f1.y);
     }
 
+    /** Strain energy of the triangles of elastic_strips() [J]. With the trace
+        of the strain and its deviator, of length |h|/D, it is
+        D/2 (K tr(e)^2 + G h^2/D^2)/2 and what the initial stress does on the
+        strain. */
+    template <int lanes, bool with_stress>
+    __attribute__((noinline)) double
+    energy_of_strips(const StripSequence sequence, const ScaledModuli moduli,
+                     const double *stress, const NodeRecord<2> *nodes)
+    {
+      using Value = typename Lanes<lanes>::Value;
+
+      const std::uint32_t *offset    = sequence.offsets;
+      const std::uint32_t *const end = offset + lanes * sequence.n_steps;
+      const std::uint8_t *mask       = sequence.masks + 2;
+      if constexpr (with_stress)
+        stress += 2 * 3 * lanes;
+
+      StripWalk<lanes> walk(nodes);
+      StripStep<lanes> before, now;
+      walk.enter(offset, before.e, before.w);
+      walk.enter(offset + lanes, before.e, before.w);
+      Value energy{};
+      for (offset += 2 * lanes; offset < end; offset += lanes, ++mask)
+      {
+        walk.first_stage(offset, before, now);
+        walk.second_stage(*mask, now);
+        // Zero where there is no triangle of the mesh.
+        const Value r     = 1. / now.denominator;
+        const Value trace = 2. * now.top * now.N * r;
+        energy += (0.125 * moduli.bulk) * now.D2 * trace * trace
+                  + (0.5 * moduli.shear) * (now.h1 * now.h1 + now.h2 * now.h2)
+                        * (now.y * r);
+        if constexpr (with_stress)
+        {
+          const Value *s   = reinterpret_cast<const Value *>(stress);
+          const Value mean = s[0], d1 = s[1], d2 = s[2];
+          stress += 3 * lanes;
+          const Value inverse_N = r * now.D2 * (now.N + now.D2);
+          energy += 0.5 * mean * now.D2 * trace
+                    + inverse_N
+                          * ((now.A * d1 - now.B * d2) * now.h1
+                             + (now.B * d1 + now.A * d2) * now.h2);
+        }
+        before.e = now.e;
+        before.w = now.w;
+      }
+      double sum = 0.;
+      for (int l = 0; l < lanes; ++l)
+        sum += energy[l];
+      return sum;
+    }
+
     template <int lanes>
     __attribute__((noinline)) void
     viscous_strips(const StripSequence sequence, const ScaledModuli moduli,

@@ -136,6 +136,10 @@ namespace quoin
      */
     double update(const NodeRecord<2> *nodes, PlasticHistory &history) const;
 
+    /** strain_energy() of cell_states.h [J]. */
+    double strain_energy(const NodeRecord<2> *nodes,
+                         const PlasticHistory &history) const;
+
     /**
      * Adds the forces of stiffness-proportional damping: the stress
      * @p beta [s] times the stiffness times the strain rate in the rotating
@@ -178,6 +182,9 @@ namespace quoin
     double add_forces_in_lanes(const Tile &tile, const NodeRecord<2> *nodes,
                                PlasticHistory &history,
                                dealii::Tensor<1, 2> *force) const;
+
+    template <int lanes>
+    double energy_in_lanes(const Tile &tile, const NodeRecord<2> *nodes) const;
 
     template <int lanes>
     void

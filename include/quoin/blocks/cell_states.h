@@ -23,6 +23,8 @@ namespace quoin
 
   /** Part of strain_energy() of one cell, or of the cells of a mixed
       tetrahedron of which @p cell is the first [J]. */
+  double cell_energy(const BlockForcesData<2> &data, const NodeRecord<2> *nodes,
+                     const PlasticHistory &history, std::size_t cell);
   double cell_energy(const BlockForcesData<3> &data, const NodeRecord<3> *nodes,
                      const PlasticHistory &history, std::size_t cell);
 

@@ -238,6 +238,12 @@ TEST(BlockForces, StripsAgreeWithCells)
           EXPECT_LT(largest_difference(by_strip, by_cell),
                     1e-13 * largest(by_cell));
 
+          double energy = 0.;
+          for (std::size_t k = 0; k < mesh.data.cells.size(); ++k)
+            energy += cell_energy(mesh.data, mesh.nodes.data(), {}, k);
+          EXPECT_NEAR(strain_energy(blocks, mesh.nodes.data(), {}), energy,
+                      1e-13 * std::abs(energy));
+
           const Forces velocity = mesh.random_velocity();
           const Forces viscous  = viscous_forces(blocks, mesh, velocity);
           const Forces viscous_by_cell

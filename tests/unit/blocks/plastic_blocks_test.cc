@@ -149,9 +149,11 @@ TEST(PlasticBlocks, BelowTheirStrengthTheyAreElastic)
     EXPECT_EQ(add_forces(blocks, mesh, history, force), 0.);
     add_forces(elastic, mesh, none, wanted);
     EXPECT_LT(largest_difference(force, wanted), 1e-9 * largest(wanted));
+    // Cells one by one and strips each lose to the rotation what the digits of
+    // a strain of 1e-6 are worth.
     EXPECT_NEAR(strain_energy(blocks, mesh.nodes.data(), history),
                 strain_energy(elastic, mesh.nodes.data(), none),
-                1e-12 * strain_energy(elastic, mesh.nodes.data(), none));
+                1e-10 * strain_energy(elastic, mesh.nodes.data(), none));
     EXPECT_TRUE(std::all_of(history.yielding.begin(), history.yielding.end(),
                             [](const auto s) { return s == 0; }));
     EXPECT_TRUE(initial_history(elastic).cells.empty());
