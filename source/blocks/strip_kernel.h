@@ -4,7 +4,7 @@
 #ifndef quoin_source_blocks_strip_kernel_h
 #define quoin_source_blocks_strip_kernel_h
 
-#include <quoin/base/lanes.h>
+#include <quoin/base/lane_functions.h>
 #include <quoin/base/node_record.h>
 #include <quoin/materials/plastic_history.h>
 
@@ -346,10 +346,7 @@ namespace quoin
         before.e = now.e;
         before.w = now.w;
       }
-      double sum = 0.;
-      for (int l = 0; l < lanes; ++l)
-        sum += energy[l];
-      return sum;
+      return LaneFunctions<lanes>::sum(energy);
     }
 
     template <int lanes>

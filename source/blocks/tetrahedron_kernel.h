@@ -4,7 +4,7 @@
 #ifndef quoin_source_blocks_tetrahedron_kernel_h
 #define quoin_source_blocks_tetrahedron_kernel_h
 
-#include <quoin/base/lanes.h>
+#include <quoin/base/lane_functions.h>
 #include <quoin/base/node_record.h>
 #include <quoin/block_elements/tetrahedron.h>
 #include <quoin/mesh/mixed_tetrahedra.h>
@@ -95,8 +95,8 @@ namespace quoin
         geometry.nodal_forces(P, f);
       }
 
-      /** Energy with the arguments of find_forces(), but for the part of the
-          trace of the strain: mu e : e + S : e, times the volume. */
+      /** Minus the strain energy [J] without lambda/2 (tr e)^2: the determinant
+          times mu e : e + S : e, with the arguments of find_forces(). */
       QUOIN_INLINE void find_energy(const Value &mu, const double *stress,
                                     Value &energy) const
       {
@@ -362,15 +362,6 @@ namespace quoin
       }
     }
 
-    template <int lanes>
-    double sum_of_lanes(const typename Lanes<lanes>::Value &value)
-    {
-      double sum = 0.;
-      for (int l = 0; l < lanes; ++l)
-        sum += value[l];
-      return sum;
-    }
-
     /** Strain energy of the cells of add_tetrahedra() [J]. */
     template <int lanes, bool with_stress, int n_cells>
     __attribute__((noinline)) double
@@ -406,7 +397,7 @@ namespace quoin
         offset += Group::offset_stride;
         stress += Group::stress_stride;
       }
-      return -sum_of_lanes<lanes>(energy);
+      return -LaneFunctions<lanes>::sum(energy);
     }
 
     /** Strain energy of the cells of add_mixed_tetrahedra() [J]: K/2 times the
@@ -453,7 +444,7 @@ namespace quoin
         offset += Group::offset_stride;
         stress += Group::stress_stride;
       }
-      return -sum_of_lanes<lanes>(energy);
+      return -LaneFunctions<lanes>::sum(energy);
     }
   } // namespace
 } // namespace quoin

@@ -83,8 +83,8 @@ namespace quoin
                   std::vector<unsigned int> &active,
                   std::vector<unsigned int> &idle)
   {
-    // Of active pairs the second bit is set and not the first, of distant ones
-    // both are.
+    // The mark of an active pair has the second bit and not the first, that of
+    // a distant one has both.
     constexpr std::uint64_t first_bits = 0x0101010101010101;
     static_assert(unsigned(PairMark::open) == 1
                   && unsigned(PairMark::active) == 2

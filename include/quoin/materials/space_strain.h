@@ -111,9 +111,10 @@ namespace quoin
     }
 
     /**
-     * The same. It is a chain of dependent operations, longer than a processor
-     * looks ahead: @p meanwhile, called with 0 and then with 1, does something
-     * else, in two parts and without branches.
+     * Finds tr e, as above, by a chain of dependent operations that is longer
+     * than a processor looks ahead. Between them @p meanwhile, called with 0
+     * and then with 1, may do something else, in two parts and without
+     * branches.
      */
     template <typename Meanwhile>
     [[gnu::always_inline]] inline void find_trace(const Meanwhile &meanwhile)
