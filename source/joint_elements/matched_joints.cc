@@ -52,7 +52,7 @@ namespace quoin
                      [](const JointSegment &a, const JointSegment &b)
                      { return a.set < b.set; });
     dashpots.set_faces(all_segments, nodes.faces().joints);
-    groups.prepare(all_segments, sets.size());
+    groups.prepare(all_segments, sets.size(), nodes);
   }
 
   std::array<std::array<double, 2>, 2> joint_gaps(const JointSegment &segment,

@@ -5,8 +5,8 @@
 #define quoin_source_joint_elements_segment_lanes_h
 
 #include <quoin/base/lane_functions.h>
-#include <quoin/base/node_record.h>
-#include <quoin/joint_elements/face_groups.h>
+
+#include "face_nodes.h"
 
 // The geometry of joint_frame.h for several segments at once, one in each lane.
 
@@ -28,12 +28,12 @@ namespace quoin
     Value opening[2], slip[1][2]; /**< of both points [m] */
 
     /** Lanes that are not @p present have frames and gaps of zero. */
-    QUOIN_INLINE SegmentLanes(const Group &group, const NodeRecord<2> *nodes,
+    QUOIN_INLINE SegmentLanes(const Group &group, const FaceNodes<2> &nodes,
                               const Bits &present)
     {
       // X, Y, u and v of lower[0], lower[1], upper[0], upper[1]
       Value node[4][4];
-      const char *base = reinterpret_cast<const char *>(nodes);
+      const char *base = reinterpret_cast<const char *>(nodes.nodes);
       for (unsigned int i = 0; i < 4; ++i)
         L::load_four(
             [&](const int l)
@@ -68,9 +68,9 @@ namespace quoin
         the nodes, with what the turning of the frame adds (joint_frame.h). */
     QUOIN_INLINE void add_forces(const Group &group, const Value (&sigma)[2],
                                  const Value (&tau)[1][2],
-                                 dealii::Tensor<1, 2> *force) const
+                                 FaceNodes<2> &nodes) const
     {
-      char *to = reinterpret_cast<char *>(force);
+      char *to = reinterpret_cast<char *>(nodes.force);
       const Value couple
           = inverse_length
             * ((tau[0][0] * opening[0] - sigma[0] * slip[0][0])
@@ -89,12 +89,11 @@ namespace quoin
     }
 
     /** Rates [m/s] of the openings and slips of both points. */
-    QUOIN_INLINE void find_rates(const Group &group,
-                                 const dealii::Tensor<1, 2> *velocity,
+    QUOIN_INLINE void find_rates(const Group &group, const FaceNodes<2> &nodes,
                                  Value (&opening_rate)[2],
                                  Value (&slip_rate)[1][2]) const
     {
-      const char *base = reinterpret_cast<const char *>(velocity);
+      const char *base = reinterpret_cast<const char *>(nodes.velocity);
       Value v[4][dim];
       for (unsigned int i = 0; i < 4; ++i)
         L::load(base, 1, group.nodes[i], v[i][0], v[i][1]);

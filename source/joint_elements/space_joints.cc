@@ -70,7 +70,7 @@ namespace quoin
                      [](const SpaceJointFace &a, const SpaceJointFace &b)
                      { return a.set < b.set; });
     dashpots.set_faces(all_faces, nodes.faces().joints);
-    groups.prepare(all_faces, sets.size());
+    groups.prepare(all_faces, sets.size(), nodes);
   }
 
   void SpaceJoints::set_laws(const std::vector<JointSetParameters> &sets)

@@ -6,30 +6,68 @@
 
 #include <quoin/base/native_lanes.h>
 #include <quoin/base/node_record.h>
+#include <quoin/mesh/node_map.h>
 #include <quoin/operators/energy_accounts.h>
+
+#include <deal.II/base/point.h>
 
 #include <cstdint>
 #include <vector>
 
 namespace quoin
 {
+  /** The vertices of faces that are computed together, by their nodes. */
+  template <int dim, int lanes>
+  struct GroupVertices
+  {
+    /** Offsets in arrays of dealii::Tensor<1, 2> [B] of the lower vertices,
+        then the upper ones; in those of NodeRecord they are twice as large. */
+    std::uint32_t nodes[4][lanes];
+  };
+
+  /** In three dimensions by their pairs in the chunk of the group. */
+  template <int lanes>
+  struct GroupVertices<3, lanes>
+  {
+    std::uint16_t pairs[3][lanes]; /**< offsets in rows of FaceNodes [B] */
+  };
+
   /**
    * Faces of matched joints that are computed together, one in each SIMD lane:
    * segments in two dimensions, triangles in three, with dim points each. Lanes
    * without a face repeat the nodes of the last one and have no area.
    */
   template <int dim, int lanes>
-  struct FaceGroup
+  struct FaceGroup : GroupVertices<dim, lanes>
   {
-    /** Offsets in arrays of dealii::Tensor<1, dim> [B] of the lower vertices,
-        then the upper ones; in those of NodeRecord they are twice as large. */
-    std::uint32_t nodes[2 * dim][lanes];
-    /** Area of each point, in the order of the history [m^2]. */
-    double area[dim * lanes];
-    /** Area times the share of the energy that this rank counts [m^2]. */
-    double weight[dim * lanes];
     std::uint32_t first; /**< index of the first face */
     std::uint32_t size;  /**< number of faces */
+    /** Areas of the points; those of a triangle are the same [m^2]. */
+    double area[dim == 2 ? 2 : 1][lanes];
+    double share[lanes]; /**< fraction of the energy that this rank counts */
+
+    const double *area_of(const unsigned int point) const
+    {
+      return area[dim == 2 ? point : 0];
+    }
+  };
+
+  /** A lower and an upper node that are at the same place in the mesh: their
+      offsets in arrays of dealii::Tensor<1, 3> [B]. */
+  struct NodePair
+  {
+    std::uint32_t lower, upper;
+  };
+
+  /** Groups of one set that follow each other, in three dimensions those whose
+      pairs of nodes are loaded together. */
+  struct FaceChunk
+  {
+    /** So that pairs stay in the cache beside the history of their faces. */
+    static constexpr unsigned int most_pairs = 128;
+
+    unsigned int first_group, n_groups;
+    unsigned int first_pair, n_pairs;
   };
 
   /** The faces of the joint sets in groups of native_lanes. */
@@ -37,9 +75,22 @@ namespace quoin
   class FaceGroups
   {
   public:
-    /** Groups @p faces, which are sorted by the @p n_sets sets. */
+    /** Groups @p faces of @p nodes, which are sorted by the @p n_sets sets.
+        Collective. */
     template <typename Face>
-    void prepare(const std::vector<Face> &faces, unsigned int n_sets);
+    void prepare(const std::vector<Face> &faces, unsigned int n_sets,
+                 const NodeMap<dim> &nodes);
+
+    const std::vector<NodePair> &node_pairs() const
+    {
+      return pairs;
+    }
+    /** A point near the joints, the same on all ranks, so that both ranks of a
+        face compute the same numbers [m]. */
+    const dealii::Point<dim> &origin() const
+    {
+      return least;
+    }
 
     /**
      * Updates the internal variables of the points of @p set in @p history for
@@ -64,7 +115,10 @@ namespace quoin
 
   private:
     AlignedArray<FaceGroup<dim, native_lanes>> groups;
-    std::vector<unsigned int> set_begin; /**< first group of each set */
+    std::vector<FaceChunk> chunks;
+    std::vector<unsigned int> set_begin; /**< first chunk of each set */
+    std::vector<NodePair> pairs;         /**< of the chunks, in 3D */
+    dealii::Point<dim> least;
   };
 } // namespace quoin
 

@@ -156,13 +156,43 @@ namespace
 
 TEST(SpaceJoints, FacesTogetherAreAsPointByPoint)
 {
-  for (const unsigned int nx : { 1U, 2U, 3U, 4U, 11U })
+  // The last one has more nodes than are loaded together.
+  for (const unsigned int nx : { 1U, 2U, 3U, 4U, 11U, 100U })
   {
     expect_same_as_by_point(coulomb(), nx, 5e-4);
     expect_same_as_by_point(composite_test::wall(), nx, 3e-5);
     expect_same_as_by_point(composite_test::dilatant(), nx, 3e-5);
     expect_same_as_by_point(rock_test::rough(), nx, 1e-4);
   }
+}
+
+TEST(SpaceJoints, ForcesAreTheSameFarFromTheOrigin)
+{
+  // Coordinates that are exact in both places.
+  const auto placed = [](const double away)
+  {
+    return [away](const dealii::Point<3> &p)
+    {
+      dealii::Point<3> result = inclined(p);
+      for (double &x : dealii::make_array_view(result))
+        x = away + std::round(std::ldexp(x, 20)) * std::ldexp(1., -20);
+      return result;
+    };
+  };
+  Stack near(elastic(), 3, placed(0.)), far(elastic(), 3, placed(1 << 22));
+  for (Stack *stack : { &near, &far })
+  {
+    stack->shake(1e-3);
+    stack->update();
+  }
+  double largest = 0., difference = 0.;
+  for (unsigned int i = 0; i < near.force.size(); ++i)
+  {
+    largest    = std::max(largest, near.force[i].norm());
+    difference = std::max(difference, (near.force[i] - far.force[i]).norm());
+  }
+  EXPECT_GT(largest, 0.);
+  EXPECT_LE(difference, 1e-14 * largest);
 }
 
 TEST(SpaceJoints, TractionOfUniformOpeningAndSlip)

@@ -124,8 +124,11 @@ namespace quoin::test::space_stack
     AlignedArray<dealii::Tensor<1, 3>> force;
     EnergyAccounts energy;
 
-    explicit Stack(const JointLaw &law, const unsigned int nx = 2)
-      : mesh(stack(nx, inclined)),
+    explicit Stack(
+        const JointLaw &law, const unsigned int nx = 2,
+        const std::function<dealii::Point<3>(dealii::Point<3>)> &placed
+        = inclined)
+      : mesh(stack(nx, placed)),
         blocks(mesh, std::vector<unsigned int>(mesh.n_cells(), 0),
                std::vector<bool>(mesh.n_blocks(), false), MPI_COMM_SELF),
         nodes(blocks)

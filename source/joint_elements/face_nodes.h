@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_source_joint_elements_face_nodes_h
+#define quoin_source_joint_elements_face_nodes_h
+
+#include <quoin/base/lanes.h>
+#include <quoin/joint_elements/face_groups.h>
+
+#include <cstddef>
+
+namespace quoin
+{
+  /** The nodes of faces, from which the faces of groups take their motion and
+      to which they add forces. */
+  template <int dim>
+  class FaceNodes;
+
+  /** In two dimensions groups load and add to nodes themselves. */
+  template <>
+  class FaceNodes<2>
+  {
+  public:
+    FaceNodes(const FaceGroups<2> &, dealii::Tensor<1, 2> *const force)
+      : force(force)
+    {
+    }
+    void load(const FaceChunk &, const NodeRecord<2> *const positions)
+    {
+      nodes = positions;
+    }
+    void load(const FaceChunk &, const dealii::Tensor<1, 2> *const velocities)
+    {
+      velocity = velocities;
+    }
+    void add_forces(const FaceChunk &) const
+    {
+    }
+
+    const NodeRecord<2> *nodes           = nullptr;
+    const dealii::Tensor<1, 2> *velocity = nullptr;
+    dealii::Tensor<1, 2> *const force;
+  };
+
+  /**
+   * In three dimensions the nodes of a chunk are loaded, and given their
+   * forces, once for all its faces, which share each with some three others. A
+   * face sees a pair of nodes only by the gap, the vector from the lower to the
+   * upper one, and by the sum of both; it acts on them by opposite forces and
+   * by equal ones.
+   */
+  template <>
+  class FaceNodes<3>
+  {
+  public:
+    FaceNodes(const FaceGroups<3> &groups, dealii::Tensor<1, 3> *const force)
+      : pairs(groups.node_pairs().data()), force(force)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        origin[d] = groups.origin()[d];
+    }
+
+    /** Takes the positions of the nodes of @p chunk, sums relative to the
+        origin. Differences of X and of u are taken apart as in between(). */
+    QUOIN_INLINE void load(const FaceChunk &chunk,
+                           const NodeRecord<3> *const nodes)
+    {
+      static_assert(sizeof(NodeRecord<3>) == 6 * sizeof(double));
+      const char *base  = reinterpret_cast<const char *>(nodes);
+      const auto record = [base](const std::uint32_t offset) {
+        return reinterpret_cast<const double *>(base + 2 * std::size_t(offset));
+      };
+      // u of (X_3, u)
+      const auto shifted = [](const Row &row)
+      { return __builtin_shufflevector(row, row, 1, 2, 3, 3); };
+      const Row from = origin; // no row can alias it
+      for (unsigned int p = 0; p < chunk.n_pairs; ++p)
+      {
+        const NodePair &pair = pairs[chunk.first_pair + p];
+        const double *a = record(pair.lower), *b = record(pair.upper);
+        const Row Xa = Lanes<4>::four(a), Xb = Lanes<4>::four(b);
+        const Row ua = Lanes<4>::four(a + 2), ub = Lanes<4>::four(b + 2);
+        motions[p][0] = (Xb - Xa) + shifted(ub - ua);
+        motions[p][1] = ((Xa - from) + (Xb - from)) + shifted(ua + ub);
+        forces[p][0] = forces[p][1] = Row{};
+      }
+    }
+
+    /** Takes velocities instead. */
+    void load(const FaceChunk &chunk,
+              const dealii::Tensor<1, 3> *const velocity)
+    {
+      const char *base = reinterpret_cast<const char *>(velocity);
+      const auto row   = [base](const std::uint32_t offset)
+      {
+        const double *v = reinterpret_cast<const double *>(base + offset);
+        return Row{ v[0], v[1], v[2], 0. };
+      };
+      for (unsigned int p = 0; p < chunk.n_pairs; ++p)
+      {
+        const NodePair &pair = pairs[chunk.first_pair + p];
+        const Row a = row(pair.lower), b = row(pair.upper);
+        motions[p][0] = b - a;
+        motions[p][1] = a + b;
+      }
+    }
+
+    /** Gaps and sums of the pairs with @p offset; see FaceGroup. */
+    template <int lanes, typename Value>
+    QUOIN_INLINE void motion(const std::uint16_t (&offset)[lanes],
+                             Value (&gap)[4], Value (&sum)[4]) const
+    {
+      using L          = Lanes<lanes>;
+      const char *base = reinterpret_cast<const char *>(motions);
+      Value row[4];
+      L::load_rows(base, 1, offset, row);
+      L::to_columns(row, gap);
+      L::load_rows(base + sizeof(Row), 1, offset, row);
+      L::to_columns(row, sum);
+    }
+
+    /** Adds @p equal + @p opposite to the forces on the lower nodes of the
+        pairs with @p offset, @p equal - @p opposite to those on the upper. */
+    template <int lanes, typename Value>
+    QUOIN_INLINE void add(const std::uint16_t (&offset)[lanes],
+                          const Value (&opposite)[4], const Value (&equal)[4])
+    {
+      using L    = Lanes<lanes>;
+      char *base = reinterpret_cast<char *>(forces);
+      Value row[4];
+      L::to_rows(opposite, row);
+      L::add_rows(base, offset, row);
+      L::to_rows(equal, row);
+      L::add_rows(base + sizeof(Row), offset, row);
+    }
+
+    /** Adds to the forces on the nodes of @p chunk. */
+    QUOIN_INLINE void add_forces(const FaceChunk &chunk) const
+    {
+      char *base = reinterpret_cast<char *>(force);
+      for (unsigned int p = 0; p < chunk.n_pairs; ++p)
+      {
+        const NodePair &pair = pairs[chunk.first_pair + p];
+        add(base + pair.lower, forces[p][1] + forces[p][0]);
+        add(base + pair.upper, forces[p][1] - forces[p][0]);
+      }
+    }
+
+    using Row = Lanes<4>::Value; /**< x, y, z and a number without meaning */
+    static constexpr unsigned int bytes_of_pair = 2 * sizeof(Row);
+
+  private:
+    static QUOIN_INLINE void add(char *to, const Row &row)
+    {
+      using Two
+          = double __attribute__((vector_size(16), aligned(8), may_alias));
+      double *f = reinterpret_cast<double *>(to);
+      *reinterpret_cast<Two *>(f) += __builtin_shufflevector(row, row, 0, 1);
+      f[2] += row[2];
+    }
+
+    const NodePair *const pairs;
+    dealii::Tensor<1, 3> *const force;
+    Row origin{};
+    alignas(64) Row motions[FaceChunk::most_pairs][2]; /**< gap, sum */
+    alignas(64) Row forces[FaceChunk::most_pairs][2];  /**< opposite, equal */
+  };
+} // namespace quoin
+
+#endif
