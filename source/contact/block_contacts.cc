@@ -5,6 +5,7 @@
 #include <quoin/base/wall_clock.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/joint_handover.h>
+#include <quoin/contact_geometry/edge_lanes.h>
 #include <quoin/joint_elements/dashpot_bounds.h>
 #include <quoin/joint_elements/dashpot_tractions.h>
 #include <quoin/mesh/global_geometry.h>
@@ -17,7 +18,6 @@
 
 #include "contact_pack.h"
 #include "contact_points.h"
-#include "edge_lanes.h"
 #include "pair_marks.h"
 
 namespace quoin

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/contact/block_gaps.h>
-#include <quoin/contact/contact_search.h>
+#include <quoin/contact_geometry/contact_search.h>
 
 #include <algorithm>
 #include <limits>

@@ -4,15 +4,14 @@
 #ifndef quoin_source_contact_contact_pack_h
 #define quoin_source_contact_contact_pack_h
 
-#include <quoin/contact/contact_state.h>
+#include <quoin/contact_geometry/contact_state.h>
+#include <quoin/contact_geometry/pair_lanes.h>
 #include <quoin/joint_laws/composite_lanes.h>
 #include <quoin/joint_laws/coulomb_lanes.h>
 
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
-
-#include "pair_lanes.h"
 
 namespace quoin
 {

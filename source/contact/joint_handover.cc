@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/contact/contact_state.h>
 #include <quoin/contact/joint_handover.h>
+#include <quoin/contact_geometry/contact_state.h>
 #include <quoin/operators/archive.h>
 
 #include <cmath>

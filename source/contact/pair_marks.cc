@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "edge_lanes.h"
+#include <quoin/contact_geometry/edge_lanes.h>
 
 namespace quoin
 {

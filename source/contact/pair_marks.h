@@ -4,7 +4,7 @@
 #ifndef quoin_source_contact_pair_marks_h
 #define quoin_source_contact_pair_marks_h
 
-#include <quoin/contact/near_pairs.h>
+#include <quoin/contact_geometry/near_pairs.h>
 
 #include <vector>
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/contact/contact_search.h>
 #include <quoin/contact/pair_search.h>
+#include <quoin/contact_geometry/contact_search.h>
+#include <quoin/contact_geometry/pair_lanes.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "pair_lanes.h"
 
 namespace quoin
 {

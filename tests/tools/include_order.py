@@ -20,7 +20,7 @@ import sys
 TIERS = [["base"],
          ["mesh", "layout", "materials", "joints", "elastodynamics"],
          ["joint_laws", "operators", "rock", "tdbem"],
-         ["block_elements", "joint_elements", "output", "signals"],
+         ["block_elements", "contact_geometry", "joint_elements", "output", "signals"],
          ["blocks", "contact", "loads", "water"], ["absorbing", "farfield", "stages", "reinforcement", "structures"], ["model"], ["loading"], ["dynamics"], ["implicit", "results"], ["parameters"],
          ["advice"], ["problems"], ["block_problem", "boundary_problem"], ["application"]]
 RANK = {name: rank for rank, tier in enumerate(TIERS) for name in tier}

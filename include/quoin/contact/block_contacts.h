@@ -5,14 +5,14 @@
 #define quoin_contact_block_contacts_h
 
 #include <quoin/base/lanes.h>
-#include <quoin/contact/contact_state.h>
-#include <quoin/operators/force_operator.h>
-#include <quoin/joint_elements/matched_joints.h>
 #include <quoin/contact/contact_laws.h>
-#include <quoin/contact/near_pairs.h>
 #include <quoin/contact/pair_search.h>
+#include <quoin/contact_geometry/contact_state.h>
+#include <quoin/contact_geometry/near_pairs.h>
+#include <quoin/joint_elements/matched_joints.h>
 #include <quoin/joint_elements/pair_dashpots.h>
 #include <quoin/joint_laws/joint_parameters.h>
+#include <quoin/operators/force_operator.h>
 
 #include <array>
 #include <string>

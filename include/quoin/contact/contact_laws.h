@@ -4,7 +4,7 @@
 #ifndef quoin_contact_contact_laws_h
 #define quoin_contact_contact_laws_h
 
-#include <quoin/contact/contact_state.h>
+#include <quoin/contact_geometry/contact_state.h>
 #include <quoin/joint_elements/matched_joints.h>
 #include <quoin/joint_laws/joint_parameters.h>
 

@@ -4,7 +4,7 @@
 #ifndef quoin_contact_joint_handover_h
 #define quoin_contact_joint_handover_h
 
-#include <quoin/contact/contact_edges.h>
+#include <quoin/contact_geometry/contact_edges.h>
 #include <quoin/joint_elements/matched_joints.h>
 
 // Matched joints that become general contacts.

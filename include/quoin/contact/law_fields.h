@@ -4,7 +4,7 @@
 #ifndef quoin_contact_law_fields_h
 #define quoin_contact_law_fields_h
 
-#include <quoin/contact/contact_state.h>
+#include <quoin/contact_geometry/contact_state.h>
 #include <quoin/joint_elements/matched_joints.h>
 
 #include <string>

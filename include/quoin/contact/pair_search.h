@@ -5,8 +5,8 @@
 #define quoin_contact_pair_search_h
 
 #include <quoin/contact/contact_laws.h>
-#include <quoin/contact/contact_skin.h>
-#include <quoin/contact/near_pairs.h>
+#include <quoin/contact_geometry/contact_skin.h>
+#include <quoin/contact_geometry/near_pairs.h>
 
 #include <array>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "../joint_laws/rock_walk.h"
 
 #include <quoin/base/exceptions.h>
-#include <quoin/contact/contact_search.h>
+#include <quoin/contact_geometry/contact_search.h>
 #include <quoin/operators/stored_energy.h>
 
 #include "test_contacts.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/contact/near_pairs.h>
+#include <quoin/contact_geometry/edge_lanes.h>
+#include <quoin/contact_geometry/near_pairs.h>
 
 #include <algorithm>
-
-#include "edge_lanes.h"
 
 namespace quoin
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_contact_near_pairs_h
-#define quoin_contact_near_pairs_h
+#ifndef quoin_contact_geometry_near_pairs_h
+#define quoin_contact_geometry_near_pairs_h
 
-#include <quoin/contact/moving_edges.h>
-#include <quoin/contact/pair_copies.h>
+#include <quoin/contact_geometry/moving_edges.h>
+#include <quoin/contact_geometry/pair_copies.h>
 
 #include <array>
 #include <vector>

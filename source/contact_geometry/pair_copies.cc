@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/contact/pair_copies.h>
+#include <quoin/contact_geometry/pair_copies.h>
 
 #include <numeric>
 #include <type_traits>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/parameter_entries.h>
-#include <quoin/contact/contact_parameters.h>
+#include <quoin/contact_geometry/contact_parameters.h>
 
 namespace quoin
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_source_contact_pair_lanes_h
-#define quoin_source_contact_pair_lanes_h
+#ifndef quoin_contact_geometry_pair_lanes_h
+#define quoin_contact_geometry_pair_lanes_h
 
 #include <quoin/base/lane_functions.h>
-#include <quoin/contact/contact_search.h>
+#include <quoin/contact_geometry/contact_search.h>
 
 // Geometry of pairs of edges in contact and the forces that go with it, for
 // one pair or for one in each lane. theory.md, "General contacts".

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_source_contact_edge_lanes_h
-#define quoin_source_contact_edge_lanes_h
+#ifndef quoin_contact_geometry_edge_lanes_h
+#define quoin_contact_geometry_edge_lanes_h
 
-#include <quoin/contact/near_pairs.h>
+#include <quoin/contact_geometry/near_pairs.h>
 
-#include "pair_lanes.h"
+#include <quoin/contact_geometry/pair_lanes.h>
 
 // Moving edges and pairs of them for PairFunctions.
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/contact/contact_search.h>
+#include <quoin/contact_geometry/contact_search.h>
 
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>

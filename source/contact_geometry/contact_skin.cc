@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/contact/contact_skin.h>
+#include <quoin/contact_geometry/contact_skin.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_contact_contact_search_h
-#define quoin_contact_contact_search_h
+#ifndef quoin_contact_geometry_contact_search_h
+#define quoin_contact_geometry_contact_search_h
 
-#include <quoin/contact/contact_state.h>
-#include <quoin/contact/contact_edges.h>
+#include <quoin/contact_geometry/contact_edges.h>
+#include <quoin/contact_geometry/contact_state.h>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_contact_contact_parameters_h
-#define quoin_contact_contact_parameters_h
+#ifndef quoin_contact_geometry_contact_parameters_h
+#define quoin_contact_geometry_contact_parameters_h
 
 #include <quoin/base/parameter_section.h>
 

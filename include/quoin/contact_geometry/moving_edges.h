@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_contact_moving_edges_h
-#define quoin_contact_moving_edges_h
+#ifndef quoin_contact_geometry_moving_edges_h
+#define quoin_contact_geometry_moving_edges_h
 
 #include <quoin/base/lanes.h>
 #include <quoin/base/thickness.h>
-#include <quoin/contact/contact_edges.h>
-#include <quoin/contact/contact_parameters.h>
-#include <quoin/contact/contact_state.h>
+#include <quoin/contact_geometry/contact_edges.h>
+#include <quoin/contact_geometry/contact_parameters.h>
+#include <quoin/contact_geometry/contact_state.h>
 #include <quoin/operators/state.h>
 
 #include <array>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/node_record.h>
-#include <quoin/contact/contact_edges.h>
+#include <quoin/contact_geometry/contact_edges.h>
 
 #include <deal.II/base/mpi_consensus_algorithms.h>
 

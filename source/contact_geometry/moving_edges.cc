@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/contact/moving_edges.h>
+#include <quoin/contact_geometry/edge_lanes.h>
+#include <quoin/contact_geometry/moving_edges.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "edge_lanes.h"
 
 namespace quoin
 {
