@@ -146,14 +146,15 @@ namespace quoin
     return lines;
   }
 
+  template <int dim>
   std::vector<std::string> face_lines(const Parameters &parameters,
-                                      const NodeMap<2> &nodes)
+                                      const NodeMap<dim> &nodes)
   {
     if (nodes.table().is_quadratic)
       return {};
     // Curve and blocks of each face, from the rank of its lower side.
     std::vector<std::array<unsigned int, 3>> own;
-    for (const JointNodes<2> &face : nodes.faces().joints)
+    for (const JointNodes<dim> &face : nodes.faces().joints)
       if (face.is_own[0] && face.blocks[0] != face.blocks[1])
         own.push_back({ { face.name, std::min(face.blocks[0], face.blocks[1]),
                           std::max(face.blocks[0], face.blocks[1]) } });
@@ -163,6 +164,8 @@ namespace quoin
       for (const auto &face : part)
         ++n_faces[face];
 
+    const auto excess
+        = [](const double n) { return dim == 2 ? 2. / (n * n) : 4. / n; };
     std::vector<std::string> lines;
     for (const JointSetParameters &set : parameters.model.joints)
     {
@@ -181,13 +184,17 @@ namespace quoin
             fewest == most ? count_text(most, "face")
                            : text_of(fewest, " to ", most, " faces"),
             " between two blocks, which while they are closed make a joint ",
-            std::round(2000. / (double(fewest) * fewest)) / 10.,
+            std::round(1000. * excess(fewest)) / 10.,
             fewest == most ? " % too stiff when its blocks rotate"
                            : " % too stiff when its blocks rotate where there "
                              "are fewest"));
     }
     return lines;
   }
+  template std::vector<std::string> face_lines(const Parameters &,
+                                               const NodeMap<2> &);
+  template std::vector<std::string> face_lines(const Parameters &,
+                                               const NodeMap<3> &);
 
   namespace
   {

@@ -137,12 +137,14 @@ namespace quoin
                  start_of_stage(parameters.stages, parameters.stages.size())) })
         run.log.messages(lines);
     if (run.options.check)
+    {
       run.log.messages(contact_lines(*system.model, state));
+      run.log.messages(face_lines(parameters, *system.nodes));
+    }
     if constexpr (dim == 2)
       if (run.options.check)
       {
         run.log.messages(named_block_lines(*system.model, system.named_blocks));
-        run.log.messages(face_lines(parameters, *system.nodes));
         if (system.water)
           run.log.messages(water_lines(*system.water));
         if (!system.model->reinforcement().empty())

@@ -48,16 +48,17 @@ namespace quoin
       return { quantity, {}, std::make_shared<LoadField>(function) };
     }
 
-    /** The level of water through the points @p text, "x, y; x, y; ...", as an
-        expression of x, constant beyond the first and the last of them. */
+    /** The level of water through the points @p text, x and height by turns, as
+        an expression of x, constant beyond the first and the last of them. */
     std::string level_through(const ParameterSection &section,
                               const std::string &name, const std::string &text)
     {
       const auto refuse = [&]()
       {
-        section.fail(name, "needs two points or more, x and y [m], with "
-                           "ascending x: 'water through 0, 12; 30, 10; 50, "
-                           "3'.");
+        section.fail(name,
+                     "needs two points or more, x and the height "
+                     "[m], with ascending x: 'water through 0, 12; 30, 10; 50, "
+                     "3'.");
       };
       std::vector<std::array<double, 2>> points;
       std::istringstream parts(text);
@@ -104,11 +105,17 @@ namespace quoin
                            "'water 12'.");
       const std::string through = " through ";
       if (text.rfind(through, 0) == 0)
-        return made_component(
-            section, name, LoadQuantity::force,
-            "9810 * max(0, "
-                + level_through(section, name, text.substr(through.size()))
-                + " - y)");
+      {
+        const std::string level
+            = level_through(section, name, text.substr(through.size()));
+        const auto function = section.made(
+            name, [&]()
+            { return SpaceTimeFunction(level, section.folder(), 3, true); });
+        return { LoadQuantity::force,
+                 {},
+                 std::make_shared<LoadField>(
+                     LoadField::water_up_to(function)) };
+      }
       const TimeFunction level = time_function(section, name, text);
       return { LoadQuantity::force, level, std::make_shared<LoadField>(level) };
     }

@@ -13,13 +13,14 @@ namespace quoin
                                const TimePoint &time, const unsigned int up,
                                const double crack) const
   {
-    if (!water_level && !uplift_diagram)
+    if (is_function_of_place() && !is_level)
       return function(place, time);
     const double level
-        = water_level ? (*water_level)(time)
-                      : uplift_diagram->level(
-                          uplift_diagram->distance({ place[0], place[1] }),
-                          time, crack);
+        = is_level      ? function(place, time)
+          : water_level ? (*water_level)(time)
+                        : uplift_diagram->level(
+                            uplift_diagram->distance({ place[0], place[1] }),
+                            time, crack);
     const double depth = level - place[up];
     // A depth that is no number must not pass for 0.
     return depth < 0. ? 0. : weight_of_water * depth;

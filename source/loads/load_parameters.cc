@@ -477,7 +477,8 @@ namespace quoin
             "LEVEL', the pressure of water whose level is a function of time "
             "[m], 9810 N/m^3 times the depth below it; or 'water through X, Y; "
             "X, Y', that below a line through points with ascending x [m], "
-            "level beyond its ends; or 'uplift', that in a joint below a dam "
+            "level beyond its ends (in three dimensions X, Z, the same along "
+            "y); or 'uplift', that in a joint below a dam "
             "from 'Headwater' to 'Tailwater' [Pa]",
             pressure_component);
       if (entries.reads_if(load.type == LoadType::gravity))

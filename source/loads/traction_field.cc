@@ -9,15 +9,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace quoin
 {
   namespace
   {
-    /** Parts of the edge of a triangle that a jump or a kink cuts. */
-    constexpr unsigned int n_parts = 8;
+    /** How often a triangle is divided at most: cut ones have edges of a
+        sixteenth in the end. */
+    constexpr unsigned int most_divisions = 4;
+    /** By how much of the largest traction one in a triangle may differ from
+        quadratic, for which the rule of three points is nearly exact. */
+    constexpr double most_deviation = 1e-3;
 
     template <int dim>
     dealii::Point<3> in_space(const dealii::Point<dim> &point)
@@ -43,6 +49,73 @@ namespace quoin
       return low < place && place < high;
     }
 
+    using Barycentric = std::array<double, 3>;
+    using Triangle    = std::array<Barycentric, 3>;
+
+    /** The point of @p triangle with the coordinates @p at in it. */
+    Barycentric point_of(const Triangle &triangle, const Barycentric &at)
+    {
+      Barycentric result{};
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int d = 0; d < 3; ++d)
+          result[d] += at[k] * triangle[k][d];
+      return result;
+    }
+
+    /** The rule of three points of @p triangle. */
+    std::array<Barycentric, 3> rule_of(const Triangle &triangle)
+    {
+      constexpr double most = 2. / 3., least = 1. / 6.;
+      return { point_of(triangle, { most, least, least }),
+               point_of(triangle, { least, most, least }),
+               point_of(triangle, { least, least, most }) };
+    }
+
+    /** The four similar triangles of @p triangle; the last one is between the
+        middles of its edges. */
+    std::array<Triangle, 4> parts_of(const Triangle &triangle)
+    {
+      const auto &[a, b, c] = triangle;
+      const Barycentric ab  = point_of(triangle, { 0.5, 0.5, 0. }),
+                        bc  = point_of(triangle, { 0., 0.5, 0.5 }),
+                        ca  = point_of(triangle, { 0.5, 0., 0.5 });
+      return {
+        { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { bc, ca, ab } }
+      };
+    }
+
+    /** Whether @p q, a vector by place, at the points of the rule of @p
+       triangle differs from the quadratic function that is @p q at its corners
+       and in the middle of its edges. */
+    template <typename Q>
+    bool deviates(const Triangle &triangle, const Q &q)
+    {
+      const std::array<Triangle, 4> parts = parts_of(triangle);
+      std::array<dealii::Tensor<1, 3>, 3> corner, opposite;
+      double largest = 0.;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        corner[k]   = q(triangle[k]);
+        opposite[k] = q(parts[3][k]);
+        largest = std::max({ largest, corner[k].norm(), opposite[k].norm() });
+      }
+      const std::array<Barycentric, 3> rule = rule_of(triangle);
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const unsigned int l = (k + 1) % 3, m = (k + 2) % 3;
+        const dealii::Tensor<1, 3> value = q(rule[k]);
+        const dealii::Tensor<1, 3> quadratic
+            = (2. * corner[k] - corner[l] - corner[m] + opposite[k]
+               + 4. * (opposite[l] + opposite[m]))
+              / 9.;
+        // A traction that is no number is not divided for ever.
+        if ((value - quadratic).norm()
+            > most_deviation * std::max(largest, value.norm()))
+          return true;
+      }
+      return false;
+    }
+
     dealii::Tensor<1, 3> unit_vector(const unsigned int axis)
     {
       dealii::Tensor<1, 3> result;
@@ -59,6 +132,11 @@ namespace quoin
     : components(parameters.components), pressure(parameters.pressure),
       distribution(parameters.distribution), shape(parameters.shape)
   {
+    const auto is_by_place = [](const LoadComponent &part)
+    { return part.field && part.field->is_function_of_place(); };
+    is_function_of_place
+        = distribution || shape || is_by_place(pressure)
+          || std::any_of(components.begin(), components.end(), is_by_place);
     std::map<unsigned int, unsigned int> slots;
     for (const BoundaryFace<dim> &given : all_faces)
     {
@@ -136,9 +214,10 @@ namespace quoin
   }
 
   template <>
-  void TractionField<2>::find_points(const Face &face,
-                                     const std::vector<Cut> &cuts,
-                                     std::vector<QuadraturePoint> &points) const
+  void TractionField<2>::find_points(
+      const Face &face, const std::vector<Cut> &cuts,
+      const std::function<dealii::Tensor<1, 2>(const dealii::Point<3> &)> &,
+      std::vector<QuadraturePoint> &points) const
   {
     const double gauss[]       = { -std::sqrt(0.6), 0., std::sqrt(0.6) };
     constexpr double weights[] = { 5. / 18., 8. / 18., 5. / 18. };
@@ -164,33 +243,43 @@ namespace quoin
   }
 
   template <>
-  void TractionField<3>::find_points(const Face &face,
-                                     const std::vector<Cut> &cuts,
-                                     std::vector<QuadraturePoint> &points) const
+  void TractionField<3>::find_points(
+      const Face &face, const std::vector<Cut> &cuts,
+      const std::function<dealii::Tensor<1, 3>(const dealii::Point<3> &)> &q,
+      std::vector<QuadraturePoint> &points) const
   {
-    const bool divided
-        = std::any_of(cuts.begin(), cuts.end(),
-                      [&](const Cut &cut)
-                      { return is_cut(face.points, cut.normal, cut.place); });
-    const unsigned int n = divided ? n_parts : 1;
-    points.clear();
-    // Triangles of the grid with the edge 1/n, upright and upside down.
-    const auto add = [&](const double i, const double j, const double turn)
+    const auto place = [&](const Barycentric &at)
     {
+      dealii::Point<3> result;
       for (unsigned int k = 0; k < 3; ++k)
-      {
-        const double u = (i + turn * (k == 1 ? 2. / 3. : 1. / 6.)) / n,
-                     v = (j + turn * (k == 2 ? 2. / 3. : 1. / 6.)) / n;
-        points.push_back({ { { 1. - u - v, u, v } }, 1. / (3. * n * n) });
-      }
+        result += at[k] * face.points[k];
+      return result;
     };
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; i + j < n; ++j)
-      {
-        add(i, j, 1.);
-        if (i + j + 1 < n)
-          add(i + 1., j + 1., -1.);
-      }
+    const auto is_divided = [&](const Triangle &triangle)
+    {
+      const std::array<dealii::Point<3>, 3> corners
+          = { place(triangle[0]), place(triangle[1]), place(triangle[2]) };
+      return std::any_of(cuts.begin(), cuts.end(),
+                         [&](const Cut &cut)
+                         { return is_cut(corners, cut.normal, cut.place); })
+             || (is_function_of_place
+                 && deviates(triangle, [&](const Barycentric &at)
+                             { return q(place(at)); }));
+    };
+    points.clear();
+    std::vector<std::pair<Triangle, unsigned int>> left
+        = { { { { { 1., 0., 0. }, { 0., 1., 0. }, { 0., 0., 1. } } }, 0 } };
+    while (!left.empty())
+    {
+      const auto [triangle, divisions] = left.back();
+      left.pop_back();
+      if (divisions < most_divisions && is_divided(triangle))
+        for (const Triangle &part : parts_of(triangle))
+          left.emplace_back(part, divisions + 1);
+      else
+        for (const Barycentric &at : rule_of(triangle))
+          points.push_back({ at, std::ldexp(1. / 3., -2 * int(divisions)) });
+    }
   }
 
   template <int dim>
@@ -234,16 +323,17 @@ namespace quoin
     std::vector<QuadraturePoint> points;
     for (const Face &face : faces)
     {
-      const double area = face.outward.norm();
-      find_points(face, cuts, points);
+      const double area                   = face.outward.norm();
+      const dealii::Tensor<1, dim> normal = face.outward / area;
+      const auto q                        = [&](const dealii::Point<3> &place)
+      { return traction(place, time, centres, normal); };
+      find_points(face, cuts, std::cref(q), points);
       for (const QuadraturePoint &point : points)
       {
         dealii::Point<3> place;
         for (unsigned int k = 0; k < dim; ++k)
           place += point.coordinates[k] * face.points[k];
-        const dealii::Tensor<1, dim> force
-            = area * point.weight
-              * traction(place, time, centres, face.outward / area);
+        const dealii::Tensor<1, dim> force = area * point.weight * q(place);
         for (unsigned int k = 0; k < dim; ++k)
         {
           if (face.slots[k] == none)

@@ -32,11 +32,13 @@ namespace quoin
   /**
    * How many faces joints have between two blocks, and by how much that makes
    * them too stiff in rotation: 2/n^2 for n equal faces with nodal quadrature
-   * (theory.md, "Nodal quadrature"). None for quadratic triangles, on whose
-   * edges Simpson's rule is exact. Collective.
+   * (theory.md, "Nodal quadrature"), in three dimensions for n^2 squares of two
+   * triangles. None for quadratic triangles, on whose edges Simpson's rule is
+   * exact. Collective.
    */
+  template <int dim>
   std::vector<std::string> face_lines(const Parameters &parameters,
-                                      const NodeMap<2> &nodes);
+                                      const NodeMap<dim> &nodes);
 
   template <int dim>
   std::vector<std::string> load_lines(const Parameters &parameters,

@@ -20,7 +20,8 @@ namespace quoin
   /**
    * A value of a load that differs from place to place: a function of place and
    * time; or the pressure of water, its unit weight times the depth below a
-   * level that is a function of time or an UpliftDiagram, and 0 above it.
+   * level that is a function of time, or of place, or an UpliftDiagram, and 0
+   * above it.
    */
   class LoadField
   {
@@ -31,6 +32,12 @@ namespace quoin
     /** Water up to the height @p level [m]. */
     explicit LoadField(const TimeFunction &level) : water_level(level)
     {
+    }
+    static LoadField water_up_to(const SpaceTimeFunction &level)
+    {
+      LoadField result(level);
+      result.is_level = true;
+      return result;
     }
 
     explicit LoadField(const std::shared_ptr<const UpliftDiagram> &diagram)
@@ -43,7 +50,8 @@ namespace quoin
     double operator()(const dealii::Point<3> &place, const TimePoint &time,
                       unsigned int up, double crack = 0.) const;
 
-    /** The height of the water [m], if it is its pressure. */
+    /** The height of the water [m], if it is its pressure and the same
+        everywhere. */
     const std::optional<TimeFunction> &level() const
     {
       return water_level;
@@ -53,6 +61,11 @@ namespace quoin
     {
       return uplift_diagram;
     }
+    /** Whether it is a function of place, which may have kinks anywhere. */
+    bool is_function_of_place() const
+    {
+      return !water_level && !uplift_diagram;
+    }
     /** Whether it is a function that may change in time. */
     bool is_function_of_time() const
     {
@@ -61,6 +74,7 @@ namespace quoin
 
   private:
     SpaceTimeFunction function;
+    bool is_level = false; /**< function is the height of the water [m] */
     std::optional<TimeFunction> water_level;
     std::shared_ptr<const UpliftDiagram> uplift_diagram;
   };

@@ -9,6 +9,7 @@
 #include <quoin/mesh/global_geometry.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -24,8 +25,9 @@ namespace quoin
    * A face in two dimensions is divided where a moving shape has a jump or a
    * kink and at the level of water; each part has a Gauss rule of three points,
    * which is exact for a traction of degree 4. In three dimensions a face has a
-   * rule of three points, exact for a linear traction, and is divided into 64
-   * such faces where one of these cuts it.
+   * rule of three points, exact for a linear traction. It is divided into four,
+   * up to four times over, where one of these cuts it, and where a function of
+   * place is not nearly quadratic, as at its kinks and jumps.
    */
   template <int dim>
   class TractionField
@@ -79,8 +81,12 @@ namespace quoin
     /** All that the forces depend on at @p time but for the place. */
     std::vector<double> data_at(const TimePoint &time) const;
     std::vector<Cut> cuts_at(const TimePoint &time) const;
-    void find_points(const Face &face, const std::vector<Cut> &cuts,
-                     std::vector<QuadraturePoint> &points) const;
+    /** @p q: the traction [Pa] at a place of @p face. */
+    void find_points(
+        const Face &face, const std::vector<Cut> &cuts,
+        const std::function<dealii::Tensor<1, dim>(const dealii::Point<3> &)>
+            &q,
+        std::vector<QuadraturePoint> &points) const;
     /** Force on the block by the area [Pa] at a place of a face with this unit
         normal. */
     dealii::Tensor<1, dim> traction(const dealii::Point<3> &place,
@@ -92,6 +98,7 @@ namespace quoin
     LoadComponent pressure;
     std::optional<SpaceTimeFunction> distribution;
     std::shared_ptr<const MovingShape> shape;
+    bool is_function_of_place; /**< which may have kinks anywhere */
     double crack_length = 0.;
     std::vector<unsigned int> node_list;
     std::vector<Face> faces;

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../contact/test_contacts.h"
+#include "../joint_elements/space_stack.h"
 
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/advice/contact_advice.h>
@@ -251,7 +252,7 @@ TEST(ModelSummary, SaysWhatThereIs)
   ASSERT_EQ(joints.size(), 1U);
   EXPECT_EQ(joints[0],
             "joints joint: 3 m; elastic, kn 2e+10 Pa/m, ks 1e+10 Pa/m");
-  const auto faces = face_lines(parameters, nodes);
+  const auto faces = face_lines<2>(parameters, nodes);
   ASSERT_EQ(faces.size(), 1U);
   EXPECT_EQ(faces[0], "joints joint: 3 faces between two blocks, which while "
                       "they are closed make a joint 22.2 % too stiff when its "
@@ -264,6 +265,21 @@ TEST(ModelSummary, SaysWhatThereIs)
                       "0 to 1000 Pa");
   EXPECT_EQ(parameters.stages[0].text(false),
             "stage stage: loads base, push; lasts 1 s; no damping");
+}
+
+TEST(ModelSummary, FacesOfJointsInThreeDimensions)
+{
+  // Two squares of two triangles.
+  const quoin::test::space_stack::Stack stack(
+      quoin::test::space_stack::elastic(), 2);
+  Parameters parameters;
+  parameters.model.joints = { quoin::test::space_stack::set_of(
+      quoin::test::space_stack::elastic()) };
+  const auto faces        = face_lines<3>(parameters, stack.nodes);
+  ASSERT_EQ(faces.size(), 1U);
+  EXPECT_EQ(faces[0], "joints joint: 4 faces between two blocks, which while "
+                      "they are closed make a joint 100 % too stiff when its "
+                      "blocks rotate");
 }
 
 TEST(ModelSummary, LoadsWhoseFactorIsSought)

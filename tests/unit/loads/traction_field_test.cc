@@ -184,7 +184,8 @@ TEST(TractionField, SeveralAxlesMoveTogether)
 }
 
 // On the sides of a cube of 1 m: resultants, and the moments of a linear
-// traction; those that a face divides are exact to what its 64 parts resolve.
+// traction; those with kinks and jumps are exact to what the parts of faces
+// resolve.
 TEST(TractionField, InThreeDimensions)
 {
   BlockMesh<3> mesh = quoin::test::box_mesh({ 2, 2, 2 }, 0.5);
@@ -225,7 +226,20 @@ TEST(TractionField, InThreeDimensions)
   EXPECT_NEAR(full[0], weight_of_water / 2., 1e-10 * weight_of_water);
   EXPECT_NEAR(full[5], weight_of_water / 6., 1e-10 * weight_of_water);
   const auto part = sums("set Boundary = x0\nset Pressure = water 0.8\n");
-  EXPECT_NEAR(part[0], weight_of_water * 0.32, 2e-3 * weight_of_water * 0.32);
+  EXPECT_NEAR(part[0], weight_of_water * 0.32, 1e-3 * weight_of_water * 0.32);
+  const auto same
+      = sums("set Boundary = x0\nset Pressure = 9810 * max(0, 0.8 - z)\n");
+  EXPECT_NEAR(same[0], weight_of_water * 0.32, 1e-3 * weight_of_water * 0.32);
+  const auto jump
+      = sums("set Boundary = x0\nset Pressure = if(z < 0.8, 2, 0)\n");
+  EXPECT_NEAR(jump[0], 1.6, 2e-2 * 1.6);
+  const auto quadratic = sums("set Boundary = x0\nset Pressure = z * y\n");
+  EXPECT_NEAR(quadratic[0], 0.25, 1e-13);
+  // (0.2 + 0.8 x)^2 / 2 at each x.
+  const auto line
+      = sums("set Boundary = y0\nset Pressure = water through 0, 0.2; 1, 1\n");
+  EXPECT_NEAR(line[1], weight_of_water * 0.992 / 4.8,
+              1e-3 * weight_of_water * 0.2);
 
   const auto moving = sums("set Boundary = z1\nset Vertical = -3\n"
                            "set Moving shape = cosine\n"
