@@ -3,8 +3,6 @@
 
 #include <quoin/advice/contact_advice.h>
 #include <quoin/base/known_names.h>
-#include <quoin/loads/nodal_load.h>
-#include <quoin/loads/platen.h>
 #include <quoin/parameters/plausibility.h>
 #include <quoin/signals/time_function.h>
 
@@ -396,68 +394,6 @@ namespace quoin
                    " times. Some hundred make a film: take ", duration / 200.,
                    " s.");
     }
-
-    /** Of platens on boundaries, whose centre is that of the mass that cells
-        give to their nodes. Collective. */
-    template <int dim>
-    void check_platens(const Parameters &parameters, const Model<dim> &model,
-                       Advice &advice)
-    {
-      /** Distance of the centre from the middle of the boundary, by the
-          farthest place of that from its middle. */
-      constexpr double far      = 0.01;
-      const NodeMap<dim> &nodes = model.nodes();
-      for (const LoadParameters &given : parameters.loads)
-      {
-        if (given.type != LoadType::platen || given.boundaries.empty())
-          continue;
-        const LoadParameters load = given.along_axes<dim>();
-        const auto turns          = [](const LoadComponent &rotation)
-        {
-          return rotation.quantity == LoadQuantity::free
-                 || rotation.quantity == LoadQuantity::force;
-        };
-        if ((dim == 2 ? !turns(load.components[2])
-                      : std::none_of(load.rotations.begin(),
-                                     load.rotations.end(), turns)))
-          continue;
-        std::vector<double> sums(dim + 1, 0.);
-        for (const unsigned int node : platen_nodes(load, nodes))
-        {
-          for (unsigned int d = 0; d < dim; ++d)
-            sums[d] += model.mass()[node] * nodes.point(node)[d];
-          sums[dim] += model.mass()[node];
-        }
-        dealii::Utilities::MPI::sum(sums, nodes.communicator(), sums);
-        dealii::Tensor<1, dim> centre, middle;
-        for (unsigned int d = 0; d < dim; ++d)
-          centre[d] = sums[d] / sums[dim];
-
-        const auto faces = faces_of_curves(nodes, load.boundaries, load.name);
-        double area      = 0.;
-        for (const BoundaryFace<dim> &face : faces)
-        {
-          const double part = outward_area(face.points).norm();
-          area += part;
-          for (const dealii::Point<dim> &point : face.points)
-            middle += part / dim * point;
-        }
-        middle /= area;
-        double reach = 0.;
-        for (const BoundaryFace<dim> &face : faces)
-          for (const dealii::Point<dim> &point : face.points)
-            reach = std::max(reach, (point - middle).norm());
-        Checks checks(advice, "load " + load.name + ": ");
-        const double off = (centre - middle).norm();
-        checks.warn_if(off > far * reach, "the centre of the platen is ", off,
-                       " m from the middle of its boundary, because it is the "
-                       "centre of the mass that cells of unequal shape give to "
-                       "its nodes. Forces of the platen act there, and moments "
-                       "and rotations are about it. Refine the mesh at the "
-                       "boundary, or give the platen a layer of blocks as its "
-                       "'Group', whose centre is exact.");
-      }
-    }
   } // namespace
 
   template <int dim>
@@ -472,7 +408,6 @@ namespace quoin
     check_initial_stress(model, advice);
     check_materials(parameters, model, advice);
     check_joints(parameters, model, advice);
-    check_platens(parameters, model, advice);
     if (!parameters.is_implicit)
       check_contacts(model, advice);
     if constexpr (dim == 2)

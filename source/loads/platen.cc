@@ -5,13 +5,14 @@
 #include <quoin/base/packed_vectors.h>
 #include <quoin/operators/archive.h>
 #include <quoin/base/constants.h>
-#include <quoin/base/local_damping.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/platen.h>
 #include <quoin/loads/prescribed_motion.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "body_step.h"
 
 namespace quoin
 {
@@ -35,6 +36,17 @@ namespace quoin
         if (is_in[i][0] > 0.)
           nodes.push_back(i);
       return nodes;
+    }
+
+    /** By x, y and the rotation about a centre from which the centre of mass is
+        @p arm [m] away; @p inertia: about that centre [kg m^2]. */
+    Eigen::Matrix3d inertia_matrix(const double mass, const double inertia,
+                                   const dealii::Tensor<1, 2> &arm)
+    {
+      Eigen::Matrix3d result;
+      result << mass, 0., -mass * arm[1], 0., mass, mass * arm[0],
+          -mass * arm[1], mass * arm[0], inertia;
+      return result;
     }
 
     template <std::size_t N>
@@ -64,6 +76,31 @@ namespace quoin
   template std::vector<unsigned int> platen_nodes(const LoadParameters &,
                                                   const NodeMap<3> &);
 
+  template <int dim>
+  std::vector<double> platen_areas(const LoadParameters &parameters,
+                                   const NodeMap<dim> &node_map,
+                                   const std::vector<unsigned int> &nodes)
+  {
+    if (!parameters.groups.empty())
+      return {};
+    std::vector<double> areas(node_map.n_owned(), 0.), result;
+    for (const BoundaryFace<dim> &face :
+         faces_of_curves(node_map, parameters.boundaries, parameters.name))
+      for (unsigned int k = 0; k < dim; ++k)
+        if (node_map.exchange().owns(face.nodes[k]))
+          areas[node_map.exchange().local(face.nodes[k])]
+              += face.shares[k] * outward_area(face.points).norm();
+    for (const unsigned int node : nodes)
+      result.push_back(areas[node]);
+    return result;
+  }
+  template std::vector<double> platen_areas(const LoadParameters &,
+                                            const NodeMap<2> &,
+                                            const std::vector<unsigned int> &);
+  template std::vector<double> platen_areas(const LoadParameters &,
+                                            const NodeMap<3> &,
+                                            const std::vector<unsigned int> &);
+
   Platen::Platen(const LoadParameters &parameters, const NodeMap<2> &node_map)
     : components(parameters.components), communicator(node_map.communicator())
   {
@@ -72,6 +109,7 @@ namespace quoin
     own_traits.holds          = { { driven(0), driven(1), driven(2) } };
     own_traits.holds_rotation = driven(2);
     node_list                 = platen_nodes(parameters, node_map);
+    node_area                 = platen_areas(parameters, node_map, node_list);
   }
 
   void Platen::set_mass(const std::vector<double> &mass,
@@ -97,37 +135,35 @@ namespace quoin
 
   void Platen::begin_stage(State<2> &state, const bool continues)
   {
+    namespace MPI       = dealii::Utilities::MPI;
     PlatenState &platen = state.get<PlatenState>(load_name);
-    double mass         = 0.;
+    double total        = 0.;
     dealii::Tensor<1, 2> of_position, momentum;
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const NodeRecord<2> &node     = state.nodes[node_list[i]];
-      const dealii::Tensor<1, 2> &v = state.velocity[node_list[i]];
-      mass += node_mass[i];
-      of_position += node_mass[i] * node.position();
-      momentum += node_mass[i] * v;
+      const double weight = node_area.empty() ? node_mass[i] : node_area[i];
+      total += weight;
+      of_position += weight * state.nodes[node_list[i]].position();
+      momentum += node_mass[i] * state.velocity[node_list[i]];
     }
-    namespace MPI = dealii::Utilities::MPI;
-    mass          = MPI::sum(mass, communicator);
-    of_position   = MPI::sum(of_position, communicator);
-    momentum      = MPI::sum(momentum, communicator);
+    total = MPI::sum(total, communicator);
+    const dealii::Tensor<1, 2> centre
+        = MPI::sum(of_position, communicator) / total;
+    momentum = MPI::sum(momentum, communicator);
 
     const bool is_new = !continues || !platen.active;
     if (is_new)
     {
       platen        = PlatenState();
       platen.active = true;
-      set_vector(platen.velocity, 0, momentum / mass);
     }
     std::copy(platen.displacement, platen.displacement + 3, platen.stage_start);
 
     // Centre and arms follow from the masses of this stage.
-    const double c                    = std::cos(platen.displacement[2]),
-                 s                    = std::sin(platen.displacement[2]);
-    const dealii::Tensor<1, 2> centre = of_position / mass;
+    const double c = std::cos(platen.displacement[2]),
+                 s = std::sin(platen.displacement[2]);
     platen.arms.clear();
-    double spin   = rigid_spin;
+    double spin   = 0.;
     platen.centre = centre - vector_at(platen.displacement, 0);
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
@@ -138,25 +174,36 @@ namespace quoin
       platen.arms.push_back(c * arm[1] - s * arm[0]);
       spin += node_mass[i] * cross(arm, v);
     }
-    spin = sum<1>({ spin }, communicator)[0];
+    spin = sum<1>({ spin + rigid_spin }, communicator)[0];
     resume_stage(state);
-    if (is_new)
-      platen.velocity[2] = spin / inertia[2];
+    if (!is_new)
+      return;
+    const Eigen::Vector3d velocity
+        = inertia_matrix(mass, inertia, offset)
+              .partialPivLu()
+              .solve(Eigen::Vector3d(momentum[0], momentum[1], spin));
+    std::copy_n(velocity.data(), 3, platen.velocity);
   }
 
   void Platen::resume_stage(const State<2> &state)
   {
     const auto &arms = state.get<PlatenState>(load_name).arms;
-    inertia          = { 0., 0., rigid_inertia };
+    std::array<double, 4> sums{ { 0., rigid_inertia, 0., 0. } };
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      inertia[0] += node_mass[i];
-      inertia[2]
-          += node_mass[i]
-             * (arms[2 * i] * arms[2 * i] + arms[2 * i + 1] * arms[2 * i + 1]);
+      const double x = arms[2 * i], y = arms[2 * i + 1];
+      sums[0] += node_mass[i];
+      sums[1] += node_mass[i] * (x * x + y * y);
+      sums[2] += node_mass[i] * x;
+      sums[3] += node_mass[i] * y;
     }
-    inertia    = sum(inertia, communicator);
-    inertia[1] = inertia[0];
+    sums    = sum(sums, communicator);
+    mass    = sums[0];
+    inertia = sums[1];
+    // Without areas it is rounding.
+    offset = node_area.empty()
+                 ? dealii::Tensor<1, 2>()
+                 : dealii::Tensor<1, 2>({ sums[2] / mass, sums[3] / mass });
   }
 
   std::array<double, 3>
@@ -179,43 +226,15 @@ namespace quoin
     return sum(force, communicator);
   }
 
-  void Platen::integrate_degree_of_freedom(const unsigned int d,
-                                           const StepContext &step,
-                                           PlatenState &platen)
+  double Platen::driven_velocity(const unsigned int d, const StepContext &step,
+                                 const PlatenState &platen) const
   {
-    const double unit   = d == 2 ? constants::degree : 1.;
-    const double before = platen.velocity[d];
-    velocity_before[d]  = before;
-    damping[d]          = 0.;
+    const double unit = d == 2 ? constants::degree : 1.;
     if (components[d].quantity == LoadQuantity::velocity)
-      platen.velocity[d]
-          = unit * step.load_rate * components[d].value(step.middle);
-    else if (components[d].quantity == LoadQuantity::displacement)
-      platen.velocity[d]
-          = (platen.stage_start[d] + unit * components[d].value(step.end)
-             - platen.displacement[d])
-            / step.dt;
-    else
-    {
-      drive[d]           = components[d].value(step.begin);
-      const double total = nodal_force[d] + drive[d];
-      const double a     = 0.5 * step.dt_velocity * step.mass_damping;
-      const double gain  = step.dt_velocity / (1. + a) / inertia[d];
-      const double free  = (1. - a) / (1. + a) * before + gain * total;
-      const double local = -local_damping_velocity(
-          step.local_damping * gain * std::abs(total), before, free);
-      platen.velocity[d] = free + local;
-      damping[d]         = local / gain
-                   - step.mass_damping * inertia[d] * 0.5
-                         * (before + platen.velocity[d]);
-      // A moment counts as a force at the radius of gyration.
-      last_unbalanced += std::abs(total)
-                         / (d == 2 ? std::sqrt(inertia[2] / inertia[0]) : 1.);
-    }
-    if (driven(d))
-      drive[d] = inertia[d] * (platen.velocity[d] - before) / step.dt_velocity
-                 - nodal_force[d];
-    platen.displacement[d] += step.dt * platen.velocity[d];
+      return unit * step.load_rate * components[d].value(step.middle);
+    return (platen.stage_start[d] + unit * components[d].value(step.end)
+            - platen.displacement[d])
+           / step.dt;
   }
 
   void Platen::correct(const StepContext &step,
@@ -223,13 +242,40 @@ namespace quoin
                        State<2> &state)
   {
     PlatenState &platen = state.get<PlatenState>(load_name);
-    nodal_force         = resultant(captured, platen);
     const double c0     = std::cos(platen.displacement[2]),
                  s0     = std::sin(platen.displacement[2]);
-    last_unbalanced     = 0.;
+    const dealii::Tensor<1, 2> mass_arm(
+        { c0 * offset[0] - s0 * offset[1], s0 * offset[0] + c0 * offset[1] });
+    BodyStep<3, 2> body;
     for (unsigned int d = 0; d < 3; ++d)
-      integrate_degree_of_freedom(d, step, platen);
-    last_resultant = drive;
+    {
+      body.driven[d]     = driven(d);
+      body.given[d]      = driven(d) ? driven_velocity(d, step, platen)
+                                     : components[d].value(step.begin);
+      velocity_before[d] = platen.velocity[d];
+    }
+    const std::array<double, 3> nodal = resultant(captured, platen);
+    const Eigen::Matrix3d matrix      = inertia_matrix(mass, inertia, mass_arm);
+    // The force that keeps the centre of mass turning about the centre, at the
+    // mean of the rates before and after the step.
+    double rate = velocity_before[2];
+    for (unsigned int iteration = 0; iteration < 2; ++iteration)
+    {
+      std::copy(velocity_before.begin(), velocity_before.end(),
+                platen.velocity);
+      const double pull = mass * rate * rate;
+      body.advance(matrix,
+                   { nodal[0] + pull * mass_arm[0],
+                     nodal[1] + pull * mass_arm[1], nodal[2] },
+                   step, platen.velocity);
+      rate = 0.5 * (velocity_before[2] + platen.velocity[2]);
+    }
+    drive           = body.drive;
+    damping         = body.damping;
+    last_resultant  = drive;
+    last_unbalanced = body.unbalanced;
+    for (unsigned int d = 0; d < 3; ++d)
+      platen.displacement[d] += step.dt * platen.velocity[d];
 
     const double *const arms = platen.arms.data();
     const double c           = std::cos(platen.displacement[2]),

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
-#include <quoin/base/local_damping.h>
 #include <quoin/loads/space_platen.h>
 #include <quoin/operators/archive.h>
 
@@ -12,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include "body_step.h"
 
 namespace quoin
 {
@@ -29,6 +30,31 @@ namespace quoin
     Vector arm_at(const std::vector<double> &arms, const unsigned int i)
     {
       return Vector({ arms[3 * i], arms[3 * i + 1], arms[3 * i + 2] });
+    }
+
+    using SixVector = BodyStep<6, 3>::Vector;
+    using SixMatrix = BodyStep<6, 3>::Matrix;
+
+    /** By the motion of a centre and the rotation about it: @p inertia about
+        the centre [kg m^2], @p arm of the centre of mass from it [m]. */
+    SixMatrix inertia_matrix(const double mass, const Matrix &inertia,
+                             const Vector &arm)
+    {
+      SixMatrix result = SixMatrix::Zero();
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        Vector axis;
+        axis[d]           = 1.;
+        const Vector spun = mass * cross_product_3d(axis, arm);
+        result(d, d)      = mass;
+        for (unsigned int e = 0; e < 3; ++e)
+        {
+          // Momentum by the rate about axis d, and the other way round.
+          result(e, 3 + d) = result(3 + d, e) = spun[e];
+          result(3 + d, 3 + e)                = inertia[d][e];
+        }
+      }
+      return result;
     }
 
     /** What @p mass at @p arm adds to a tensor of inertia. */
@@ -89,6 +115,7 @@ namespace quoin
     own_traits.holds          = { { driven(0), driven(1), driven(2) } };
     own_traits.holds_rotation = driven(3) && driven(4) && driven(5);
     node_list                 = platen_nodes(parameters, node_map);
+    node_area                 = platen_areas(parameters, node_map, node_list);
   }
 
   bool SpacePlaten::driven(const unsigned int d) const
@@ -124,9 +151,9 @@ namespace quoin
     Vector of_position, momentum;
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      total += node_mass[i];
-      of_position
-          += node_mass[i] * Vector(state.nodes[node_list[i]].position());
+      const double weight = node_area.empty() ? node_mass[i] : node_area[i];
+      total += weight;
+      of_position += weight * Vector(state.nodes[node_list[i]].position());
       momentum += node_mass[i] * state.velocity[node_list[i]];
     }
     total               = MPI::sum(total, communicator);
@@ -158,12 +185,17 @@ namespace quoin
     resume_stage(state);
     if (!is_new)
       return;
-    const Vector rate = invert(inertia) * spin;
+    SixVector motion;
     for (unsigned int d = 0; d < 3; ++d)
     {
-      platen.velocity[d]     = momentum[d] / mass;
-      platen.velocity[3 + d] = rate[d];
+      motion[d]     = momentum[d];
+      motion[3 + d] = spin[d];
     }
+    const Matrix now = rotation_of(platen);
+    motion = inertia_matrix(mass, now * inertia * transpose(now), now * offset)
+                 .partialPivLu()
+                 .solve(motion);
+    std::copy_n(motion.data(), 6, platen.velocity.begin());
   }
 
   void SpacePlaten::resume_stage(const State<3> &state)
@@ -171,13 +203,17 @@ namespace quoin
     const auto &arms = state.get<SpacePlatenState>(load_name).arms;
     mass             = 0.;
     inertia          = Matrix();
+    offset           = Vector();
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
       mass += node_mass[i];
       inertia += inertia_of(node_mass[i], arm_at(arms, i));
+      if (!node_area.empty())
+        offset += node_mass[i] * arm_at(arms, i);
     }
     mass    = dealii::Utilities::MPI::sum(mass, communicator);
     inertia = dealii::Utilities::MPI::sum(inertia, communicator);
+    offset  = dealii::Utilities::MPI::sum(offset, communicator) / mass;
   }
 
   SpacePlaten::Six
@@ -214,65 +250,6 @@ namespace quoin
            / step.dt;
   }
 
-  void SpacePlaten::advance(const unsigned int first, const Matrix &inertia,
-                            const Vector &force, const StepContext &step,
-                            SpacePlatenState &platen)
-  {
-    const Vector before = half_of(platen.velocity, first);
-    const double a      = 0.5 * step.dt_velocity * step.mass_damping;
-    // Unknown is the change of velocity; of driven components it is given.
-    Matrix matrix = inertia;
-    Vector total  = force, right;
-    for (unsigned int d = 0; d < 3; ++d)
-    {
-      damping[first + d] = 0.;
-      if (driven(first + d))
-      {
-        matrix[d]    = Vector();
-        matrix[d][d] = 1.;
-        right[d]     = driven_velocity(first + d, step, platen) - before[d];
-        continue;
-      }
-      drive[first + d] = component(first + d).value(step.begin);
-      total[d] += drive[first + d];
-      right[d] = step.dt_velocity * total[d];
-      for (unsigned int e = 0; e < 3; ++e)
-        if (!driven(first + e))
-        {
-          matrix[d][e] *= 1. + a;
-          right[d] -= 2. * a * inertia[d][e] * before[e];
-        }
-    }
-    Vector change = invert(matrix) * right, local;
-    for (unsigned int d = 0; d < 3; ++d)
-      if (!driven(first + d))
-      {
-        local[d] = -local_damping_velocity(step.local_damping * step.dt_velocity
-                                               / (1. + a) / inertia[d][d]
-                                               * std::abs(total[d]),
-                                           before[d], before[d] + change[d]);
-        // A moment counts as a force at the radius of gyration.
-        last_unbalanced
-            += std::abs(total[d])
-               / (first == 0 ? 1. : std::sqrt(inertia[d][d] / mass));
-      }
-    change += local;
-    for (unsigned int d = 0; d < 3; ++d)
-    {
-      for (unsigned int e = 0; e < 3; ++e)
-        if (!driven(first + d) && !driven(first + e))
-          damping[first + d]
-              += inertia[d][e]
-                 * ((1. + a) / step.dt_velocity * local[e]
-                    - step.mass_damping * (before[e] + 0.5 * change[e]));
-      if (driven(first + d))
-        drive[first + d] = inertia[d] * change / step.dt_velocity - force[d];
-      velocity_before[first + d] = before[d];
-      platen.velocity[first + d] = before[d] + change[d];
-      platen.displacement[first + d] += step.dt * platen.velocity[first + d];
-    }
-  }
-
   void SpacePlaten::correct(const StepContext &step,
                             const std::vector<CapturedNode<3>> &captured,
                             State<3> &state)
@@ -280,27 +257,47 @@ namespace quoin
     SpacePlatenState &platen = state.get<SpacePlatenState>(load_name);
     const Matrix before      = rotation_of(platen);
     const Matrix turned      = before * inertia * transpose(before);
+    const Vector mass_arm    = before * offset;
     const Vector spin        = half_of(platen.velocity, 3);
     const Six nodal          = resultant(captured, platen);
-    last_unbalanced          = 0.;
-    advance(0, mass * Matrix(dealii::unit_symmetric_tensor<3>()),
-            half_of(nodal, 0), step, platen);
-    // Euler's equations: the spin of its axes takes a moment, that of the mean
-    // of the spins before and after, which does no work.
-    const double of_forces = last_unbalanced;
-    const Six from = platen.displacement, velocity = platen.velocity;
-    Vector mean_spin = spin;
+    velocity_before          = platen.velocity;
+    BodyStep<6, 3> body;
+    for (unsigned int d = 0; d < 6; ++d)
+    {
+      body.driven[d] = driven(d);
+      body.given[d]  = driven(d) ? driven_velocity(d, step, platen)
+                                 : component(d).value(step.begin);
+    }
+    // Euler's equations: the spin of its axes takes a moment, and that of its
+    // centre of mass a force, of the mean of the spins before and after, which
+    // does no work.
+    const SixMatrix matrix = inertia_matrix(mass, turned, mass_arm);
+    Vector mean_spin       = spin;
     for (unsigned int iteration = 0; iteration < 2; ++iteration)
     {
-      platen.displacement = from;
-      platen.velocity     = velocity;
-      last_unbalanced     = of_forces;
-      advance(3, turned,
-              half_of(nodal, 3)
-                  - cross_product_3d(mean_spin, Vector(turned * mean_spin)),
-              step, platen);
+      platen.velocity = velocity_before;
+      const Vector force
+          = half_of(nodal, 0)
+            - mass
+                  * cross_product_3d(mean_spin,
+                                     cross_product_3d(mean_spin, mass_arm));
+      const Vector moment
+          = half_of(nodal, 3)
+            - cross_product_3d(mean_spin, Vector(turned * mean_spin));
+      SixVector total;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        total[d]     = force[d];
+        total[3 + d] = moment[d];
+      }
+      body.advance(matrix, total, step, platen.velocity.data());
       mean_spin = 0.5 * (spin + half_of(platen.velocity, 3));
     }
+    drive           = body.drive;
+    damping         = body.damping;
+    last_unbalanced = body.unbalanced;
+    for (unsigned int d = 0; d < 6; ++d)
+      platen.displacement[d] += step.dt * platen.velocity[d];
     last_resultant = { { drive[0], drive[1], drive[2] } };
 
     const Vector rate  = half_of(platen.velocity, 3);

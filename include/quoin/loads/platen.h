@@ -15,6 +15,14 @@ namespace quoin
   std::vector<unsigned int> platen_nodes(const LoadParameters &parameters,
                                          const NodeMap<dim> &node_map);
 
+  /** Areas of the boundary that belong to its @p nodes, platen_nodes() [m^2],
+      whose middle is the centre of the platen; of groups none, and the centre
+      is that of their mass. */
+  template <int dim>
+  std::vector<double> platen_areas(const LoadParameters &parameters,
+                                   const NodeMap<dim> &node_map,
+                                   const std::vector<unsigned int> &nodes);
+
   /** Motion of a rigid platen: x [m], y [m], rotation [rad, anticlockwise]. */
   struct PlatenState
   {
@@ -43,9 +51,11 @@ namespace quoin
 
   /**
    * A rigid platen: the nodes of a boundary, or all nodes of a group of blocks,
-   * move as one rigid body about their centre of mass. Each of its three
-   * degrees of freedom is driven (velocity or displacement), loaded (force or
-   * moment) or free. Its mass is that of its nodes.
+   * move as one rigid body. Its centre is the middle of the boundary, or the
+   * centre of mass of the group. Each of its three degrees of freedom, the
+   * displacements of the centre and the rotation, is driven (velocity or
+   * displacement), loaded (force or moment) or free. Its mass is that of its
+   * nodes.
    */
   class Platen : public MotionConstraint<2>, public RigidMotion<2>
   {
@@ -93,19 +103,22 @@ namespace quoin
     std::array<double, 3>
     resultant(const std::vector<CapturedNode<2>> &captured,
               const PlatenState &platen) const;
-    /** Advances component @p d: motion, force, drive and damping. */
-    void integrate_degree_of_freedom(unsigned int d, const StepContext &step,
-                                     PlatenState &platen);
+    /** What its velocity becomes where component @p d is driven [m/s, rad/s].
+     */
+    double driven_velocity(unsigned int d, const StepContext &step,
+                           const PlatenState &platen) const;
 
     std::array<LoadComponent, 3> components;
     MPI_Comm communicator;
-    std::vector<double> node_mass;
+    std::vector<double> node_mass, node_area; /**< see platen_areas() */
     double rigid_inertia = 0., rigid_spin = 0.;
-    std::array<double, 3> inertia{}; /**< mass, mass, moment */
+    double mass = 0., inertia = 0.; /**< inertia about the centre [kg m^2] */
+    /** Of the centre of mass from the centre, turned back as arms are [m]. */
+    dealii::Tensor<1, 2> offset;
 
-    /** Force on the platen in the last step from its nodes, its drive and
-        damping, and the velocity before it. */
-    std::array<double, 3> nodal_force{}, drive{}, damping{}, velocity_before{};
+    /** Forces on the platen in the last step by its drive and damping, and the
+        velocity before it. */
+    std::array<double, 3> drive{}, damping{}, velocity_before{};
     double last_unbalanced = 0.;
   };
 } // namespace quoin

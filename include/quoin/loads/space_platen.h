@@ -116,19 +116,13 @@ namespace quoin
     /** Force and moment [N, N m] of the nodes, summed over all ranks. */
     Six resultant(const std::vector<CapturedNode<3>> &captured,
                   const SpacePlatenState &platen) const;
-    /**
-     * Advances three components, from @p first on, with their @p inertia [kg]
-     * or [kg m^2] under @p force, what their nodes and their own motion exert;
-     * sets drive and damping.
-     */
-    void advance(unsigned int first, const Matrix &inertia, const Vector &force,
-                 const StepContext &step, SpacePlatenState &platen);
 
     std::array<LoadComponent, 3> components, turns;
     MPI_Comm communicator;
-    std::vector<double> node_mass;
+    std::vector<double> node_mass, node_area; /**< see platen_areas() */
     double mass = 0.;
     Matrix inertia; /**< of the arms [kg m^2] */
+    Vector offset;  /**< of the centre of mass, as an arm [m] */
 
     /** Forces and moments on the platen in the last step by its drive and
         damping, and the velocity before it. */

@@ -20,8 +20,8 @@ namespace
     Platen platen;
 
     HeldBlock(const LoadComponent &x, const LoadComponent &y,
-              const LoadComponent &rotation)
-      : platen(parameters(x, y, rotation), nodes)
+              const LoadComponent &rotation, const std::string &boundary = "")
+      : platen(parameters(x, y, rotation, boundary), nodes)
     {
       platen.prepare(state);
       platen.set_mass(mass);
@@ -30,11 +30,15 @@ namespace
 
     static LoadParameters parameters(const LoadComponent &x,
                                      const LoadComponent &y,
-                                     const LoadComponent &rotation)
+                                     const LoadComponent &rotation,
+                                     const std::string &boundary)
     {
       LoadParameters result;
-      result.name       = "plate";
-      result.groups     = { "rock" };
+      result.name = "plate";
+      if (boundary.empty())
+        result.groups = { "rock" };
+      else
+        result.boundaries = { boundary };
       result.components = { { x, y, rotation } };
       return result;
     }
@@ -121,4 +125,47 @@ TEST(Platen, TakesOverTheMotionOfItsNodes)
   block.move(block.platen);
   EXPECT_NEAR(now.velocity[2], 3., 1e-14);
   EXPECT_NEAR(now.displacement[0], 4. * block.dt, 1e-15);
+}
+
+// The bottom, 3 m with 2 kg on the left and 1 kg on the right: its force acts
+// in the middle, 0.5 m from the centre of mass, about which it has 2 * 1 + 1 *
+// 4 kg m^2.
+TEST(Platen, ForcesOnABoundaryActInItsMiddle)
+{
+  HeldBlock block({}, BoundarySquare::component(LoadQuantity::force, "12"), {},
+                  "bottom");
+  block.capture(block.platen, no_forces);
+  block.move(block.platen);
+  const PlatenState &now = block.state.get<PlatenState>("plate");
+  const double turns     = 12. * 0.5 / 6. * block.dt;
+  EXPECT_NEAR(now.centre[0], 2.5, 1e-15);
+  EXPECT_NEAR(now.velocity[2], turns, 1e-15);
+  EXPECT_NEAR(now.velocity[1], 12. / 3. * block.dt + 0.5 * turns, 1e-15);
+  EXPECT_NEAR(block.state.velocity[0][1], 12. / 3. * block.dt - turns, 1e-8);
+  EXPECT_NEAR(block.state.velocity[1][1], 12. / 3. * block.dt + 2. * turns,
+              1e-8);
+}
+
+// Turned about its middle by a motor and free else, it wobbles about its centre
+// of mass, which stays where it is, and its work is the energy of the rotation.
+TEST(Platen, ABoundaryTurnsAboutItsCentreOfMass)
+{
+  HeldBlock block({}, {},
+                  BoundarySquare::component(LoadQuantity::velocity, "36e3 * t"),
+                  "bottom");
+  const auto centre_of_mass = [&]()
+  {
+    return 2. / 3. * (block.mesh.vertices[0] + block.state.nodes[0].u)
+           + 1. / 3. * (block.mesh.vertices[1] + block.state.nodes[1].u);
+  };
+  const auto before = centre_of_mass();
+  for (unsigned int i = 0; i < 200; ++i)
+  {
+    block.step.begin  = { i * block.dt, i * block.dt };
+    block.step.middle = { (i + 0.5) * block.dt, (i + 0.5) * block.dt };
+    block.capture(block.platen, no_forces);
+    block.move(block.platen);
+  }
+  // Two turns; a step turns it by up to 7 degrees.
+  EXPECT_NEAR((centre_of_mass() - before).norm(), 0., 5e-3);
 }
