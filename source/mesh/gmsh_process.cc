@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/personality.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,6 +24,9 @@ namespace quoin
   namespace
   {
     namespace fs = std::filesystem;
+
+    /** What personality() does not set, but tells what is set. */
+    constexpr unsigned long ask_personality = 0xffffffff;
 
     std::string gmsh_program()
     {
@@ -88,8 +92,16 @@ namespace quoin
       posix_spawn_file_actions_init(&actions);
       posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
       posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+      // gmsh orders entities by their addresses: with addresses at random each
+      // run would get another mesh of the same geometry. Systems that refuse
+      // this leave them so.
+      const int before = personality(ask_personality);
+      if (before != -1)
+        personality(before | ADDR_NO_RANDOMIZE);
       const int error = posix_spawn(&process, program.c_str(), &actions,
                                     nullptr, words.data(), environ);
+      if (before != -1)
+        personality(before);
       posix_spawn_file_actions_destroy(&actions);
       return error;
     }

@@ -235,8 +235,8 @@ TEST(SpaceBlocks, PassThePatchTest)
     return u;
   };
   box.set(affine, [](const Vector &) { return Vector(); });
-  LoadParameters held
-      = load("held", LoadType::prescribed_motion, { "x0", "x1", "z1" });
+  LoadParameters held = load("held", LoadType::prescribed_motion,
+                             { "x0", "x1", "y0", "y1", "z0", "z1" });
   for (LoadComponent &part : held.components)
     part = component(LoadQuantity::velocity, "0");
   box.constraints.push_back(
