@@ -258,8 +258,9 @@ namespace quoin
     const Eigen::Matrix3d matrix      = inertia_matrix(mass, inertia, mass_arm);
     // The force that keeps the centre of mass turning about the centre, at the
     // mean of the rates before and after the step.
-    double rate = velocity_before[2];
-    for (unsigned int iteration = 0; iteration < 2; ++iteration)
+    double rate                     = velocity_before[2];
+    const unsigned int n_iterations = mass_arm.norm_square() > 0. ? 2 : 1;
+    for (unsigned int iteration = 0; iteration < n_iterations; ++iteration)
     {
       std::copy(velocity_before.begin(), velocity_before.end(),
                 platen.velocity);
