@@ -184,7 +184,7 @@ namespace quoin
             fewest == most ? count_text(most, "face")
                            : text_of(fewest, " to ", most, " faces"),
             " between two blocks, which while they are closed make a joint ",
-            std::round(1000. * excess(fewest)) / 10.,
+            dim == 2 ? "" : "about ", std::round(1000. * excess(fewest)) / 10.,
             fewest == most ? " % too stiff when its blocks rotate"
                            : " % too stiff when its blocks rotate where there "
                              "are fewest"));

@@ -24,7 +24,8 @@ namespace quoin
     using Group                       = FaceGroup<dim, lanes>;
 
     Value n[3], s[3], t[3]; /**< see FaceFrame */
-    // Of twice the edges of FaceFrame, the sums of those of both sides.
+    // The edges E1 and E2 are here the sums of those of both sides, twice the
+    // mean ones of FaceFrame.
     Value inverse_length, inverse_above; /**< of E1, of E2 across it [1/m] */
     Value along;                         /**< of E2 [m] */
     Value opening[3], slip[2][3];        /**< of the points; along s, t [m] */
@@ -125,8 +126,8 @@ namespace quoin
           edge[i][d] = sum[i + 1][d] - sum[0][d];
     }
 
-    /** See frame_of(); with two roots and one division, none of which waits
-        for another root. */
+    /** Finds the frame as frame_of() does, with one division for all inverses.
+     */
     QUOIN_INLINE void set_frame(const Value (&e1)[3], const Value (&e2)[3],
                                 const Bits &present)
     {

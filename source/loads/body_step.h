@@ -17,11 +17,11 @@
 namespace quoin
 {
   /**
-   * A step of the velocities of a rigid body, n_moved along the axes and the
-   * others about them: with their matrix of inertia @p I those that are driven
-   * get the velocity that is @p given, the others follow what is given as their
-   * load, @p force of the nodes and damping. With a = dt alpha/2 of mass
-   * damping
+   * A step of the n velocities of a rigid body, of which the first n_moved are
+   * along the axes and the others about them. Driven ones become the velocity
+   * that is given. The others follow the load G that is given, the force F of
+   * the nodes and damping, with the matrix of inertia I: by a = dt alpha/2 of
+   * mass damping
    *
    *   (1 + a) I_ff dv_f = dt (F + G)_f - I_fd dv_d - 2 a I_ff v_f .
    */

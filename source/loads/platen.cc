@@ -38,8 +38,9 @@ namespace quoin
       return nodes;
     }
 
-    /** By x, y and the rotation about a centre from which the centre of mass is
-        @p arm [m] away; @p inertia: about that centre [kg m^2]. */
+    /** The matrix of inertia of the motion x, y of a centre and of the rotation
+        about it: @p inertia about the centre [kg m^2], @p arm of the centre of
+        mass from it [m]. */
     Eigen::Matrix3d inertia_matrix(const double mass, const double inertia,
                                    const dealii::Tensor<1, 2> &arm)
     {
@@ -200,7 +201,7 @@ namespace quoin
     sums    = sum(sums, communicator);
     mass    = sums[0];
     inertia = sums[1];
-    // Without areas it is rounding.
+    // The centre of a group is that of its mass, to rounding.
     offset = node_area.empty()
                  ? dealii::Tensor<1, 2>()
                  : dealii::Tensor<1, 2>({ sums[2] / mass, sums[3] / mass });

@@ -35,8 +35,9 @@ namespace quoin
     using SixVector = BodyStep<6, 3>::Vector;
     using SixMatrix = BodyStep<6, 3>::Matrix;
 
-    /** By the motion of a centre and the rotation about it: @p inertia about
-        the centre [kg m^2], @p arm of the centre of mass from it [m]. */
+    /** The matrix of inertia of the motion of a centre and of the rotation
+        about it: @p inertia about the centre [kg m^2], @p arm of the centre of
+        mass from it [m]. */
     SixMatrix inertia_matrix(const double mass, const Matrix &inertia,
                              const Vector &arm)
     {

@@ -108,7 +108,7 @@ namespace quoin
             = (2. * corner[k] - corner[l] - corner[m] + opposite[k]
                + 4. * (opposite[l] + opposite[m]))
               / 9.;
-        // A traction that is no number is not divided for ever.
+        // No triangle is divided where the traction is no number.
         if ((value - quadratic).norm()
             > most_deviation * std::max(largest, value.norm()))
           return true;

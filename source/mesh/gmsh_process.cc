@@ -25,7 +25,7 @@ namespace quoin
   {
     namespace fs = std::filesystem;
 
-    /** What personality() does not set, but tells what is set. */
+    /** With this value personality() sets nothing and returns what is set. */
     constexpr unsigned long ask_personality = 0xffffffff;
 
     std::string gmsh_program()
@@ -93,8 +93,8 @@ namespace quoin
       posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
       posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
       // gmsh orders entities by their addresses: with addresses at random each
-      // run would get another mesh of the same geometry. Systems that refuse
-      // this leave them so.
+      // run would get another mesh of the same geometry. A system that refuses
+      // to fix them leaves it at that.
       const int before = personality(ask_personality);
       if (before != -1)
         personality(before | ADDR_NO_RANDOMIZE);

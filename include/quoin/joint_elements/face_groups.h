@@ -25,7 +25,7 @@ namespace quoin
     std::uint32_t nodes[4][lanes];
   };
 
-  /** In three dimensions by their pairs in the chunk of the group. */
+  /** The vertices of triangles, by their pairs of nodes in the chunk. */
   template <int lanes>
   struct GroupVertices<3, lanes>
   {

@@ -33,6 +33,7 @@ namespace quoin
     explicit LoadField(const TimeFunction &level) : water_level(level)
     {
     }
+    /** Water up to a height @p level that differs from place to place [m]. */
     static LoadField water_up_to(const SpaceTimeFunction &level)
     {
       LoadField result(level);

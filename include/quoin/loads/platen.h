@@ -15,9 +15,9 @@ namespace quoin
   std::vector<unsigned int> platen_nodes(const LoadParameters &parameters,
                                          const NodeMap<dim> &node_map);
 
-  /** Areas of the boundary that belong to its @p nodes, platen_nodes() [m^2],
-      whose middle is the centre of the platen; of groups none, and the centre
-      is that of their mass. */
+  /** The areas of the boundary that belong to its @p nodes, platen_nodes()
+      [m^2]: their middle is the centre of the platen. Platens on groups have
+      none; their centre is that of the mass. */
   template <int dim>
   std::vector<double> platen_areas(const LoadParameters &parameters,
                                    const NodeMap<dim> &node_map,
@@ -113,7 +113,7 @@ namespace quoin
     std::vector<double> node_mass, node_area; /**< see platen_areas() */
     double rigid_inertia = 0., rigid_spin = 0.;
     double mass = 0., inertia = 0.; /**< inertia about the centre [kg m^2] */
-    /** Of the centre of mass from the centre, turned back as arms are [m]. */
+    /** The arm of the centre of mass, turned back like those of nodes [m]. */
     dealii::Tensor<1, 2> offset;
 
     /** Forces on the platen in the last step by its drive and damping, and the

@@ -122,7 +122,7 @@ namespace quoin
     std::vector<double> node_mass, node_area; /**< see platen_areas() */
     double mass = 0.;
     Matrix inertia; /**< of the arms [kg m^2] */
-    Vector offset;  /**< of the centre of mass, as an arm [m] */
+    Vector offset;  /**< the arm of the centre of mass [m] */
 
     /** Forces and moments on the platen in the last step by its drive and
         damping, and the velocity before it. */

@@ -277,9 +277,10 @@ TEST(ModelSummary, FacesOfJointsInThreeDimensions)
       quoin::test::space_stack::elastic()) };
   const auto faces        = face_lines<3>(parameters, stack.nodes);
   ASSERT_EQ(faces.size(), 1U);
-  EXPECT_EQ(faces[0], "joints joint: 4 faces between two blocks, which while "
-                      "they are closed make a joint 100 % too stiff when its "
-                      "blocks rotate");
+  EXPECT_EQ(faces[0],
+            "joints joint: 4 faces between two blocks, which while "
+            "they are closed make a joint about 100 % too stiff when its "
+            "blocks rotate");
 }
 
 TEST(ModelSummary, LoadsWhoseFactorIsSought)

@@ -146,8 +146,8 @@ TEST(Platen, ForcesOnABoundaryActInItsMiddle)
               1e-8);
 }
 
-// Turned about its middle by a motor and free else, it wobbles about its centre
-// of mass, which stays where it is, and its work is the energy of the rotation.
+// A boundary that is turned about its middle and free to move else wobbles
+// about its centre of mass, which stays where it is.
 TEST(Platen, ABoundaryTurnsAboutItsCentreOfMass)
 {
   HeldBlock block({}, {},
