@@ -338,11 +338,11 @@ class Build:
             yield words + ["-w"]
         words = list(self.link[program])
         words[words.index("-o") + 1] = os.path.join(place, program)
-        # before the library, which is then not asked for the old ones
-        library = words.index("libquoin.a")
-        words[library:library] = [new for old, new in replaced.items()
-                                  if old not in words]
-        yield [replaced.get(word, word) for word in words]
+        # Before all others: of a function of a header that is not inlined the
+        # linker takes the first, and does not ask the library for old ones.
+        first = next(i for i, word in enumerate(words) if word.endswith(".o"))
+        words[first:first] = replaced.values()
+        yield [word for word in words if word not in replaced]
 
 
 class Worker:

@@ -239,8 +239,11 @@ namespace quoin
     if (value_of(size) <= value_of(limit))
       return result;
 
-    const auto direction  = direction_of(trial);
-    const auto away       = cosine(direction, slip);
+    const auto direction = direction_of(trial);
+    const Slip<dim> before
+        = point.plastic_slip + point.shear_traction / stiffness;
+    const auto away
+        = growth(direction, constant_slip<dim, Number>(before), slip);
     result.slips          = true;
     result.wear           = (size - limit) / stiffness;
     result.shear_traction = limit * direction;

@@ -79,11 +79,13 @@ namespace quoin
 
         const Value size      = magnitude(tau);
         const Slips direction = direction_of(tau, size);
-        const Value slid      = magnitude(points.slip);
-        const Value psi
-            = slid < law.critical_shear_displacement
-                  ? law.dilation * cosine(direction, points.slip, slid)
-                  : none;
+        Value psi{};
+        if (law.dilation != 0.)
+          psi = magnitude(points.slip) < law.critical_shear_displacement
+                    ? law.dilation
+                          * growth(direction, plastic_slip + tau_old / ks,
+                                   points.slip)
+                    : none;
         const Value excess = size - law.residual.cohesion + sigma * friction;
         Value stiffness    = ks + kn * psi * friction;
         stiffness          = stiffness > 0.1 * ks ? stiffness : none + ks;

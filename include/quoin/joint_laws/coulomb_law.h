@@ -215,10 +215,18 @@ namespace quoin
       double excess;       /**< excess of |tau| over the strength [Pa] */
       double stiffness;    /**< decrease of the excess per |dp| [Pa/m] */
     };
-    /** Drive at trial tractions [Pa] and the @p slip [m]. */
+    /** Drive at trial tractions [Pa], from the slip @p before to that
+       @p after the step [m]. */
     template <int dim>
     Drive<dim> drive(double sigma, const Slip<dim> &tau,
-                     const Slip<dim> &slip) const;
+                     const Slip<dim> &before, const Slip<dim> &after) const;
+
+    /** Slip [m] of @p point. */
+    template <int dim>
+    Slip<dim> slip_of(const JointPoint<dim> &point) const
+    {
+      return point.plastic_slip + point.shear_traction / shear_stiffness;
+    }
 
     /** Derivative [Pa/m] of update_failing(), at the point as it was before. */
     template <int dim>
@@ -267,14 +275,14 @@ namespace quoin
   }
 
   template <int dim>
-  inline CoulombLaw::Drive<dim> CoulombLaw::drive(const double sigma,
-                                                  const Slip<dim> &tau,
-                                                  const Slip<dim> &slip) const
+  inline CoulombLaw::Drive<dim>
+  CoulombLaw::drive(const double sigma, const Slip<dim> &tau,
+                    const Slip<dim> &before, const Slip<dim> &after) const
   {
     Drive<dim> result;
     result.direction = direction_of(tau);
-    result.psi       = magnitude(slip) < critical_shear_displacement
-                           ? dilation * cosine(result.direction, slip)
+    result.psi       = magnitude(after) < critical_shear_displacement
+                           ? dilation * growth(result.direction, before, after)
                            : 0.;
     result.excess
         = magnitude(tau) - residual.cohesion + sigma * residual.friction;
@@ -321,7 +329,7 @@ namespace quoin
 
     // Slip: implicit in sigma, because dilation presses the joint together.
     const auto [direction, psi, excess, stiffness]
-        = drive<dim>(sigma_trial, tau_trial, slip);
+        = drive<dim>(sigma_trial, tau_trial, slip_of(point), slip);
     double dp = std::max(0., excess) / stiffness;
     // Friction cannot turn the shear traction round.
     dp = std::min(dp, magnitude(tau_trial) / ks);
@@ -392,7 +400,7 @@ namespace quoin
       return {}; // open: the residual tension, no shear
 
     const auto [direction, psi, excess, stiffness]
-        = drive<dim>(sigma_trial, tau_trial, slip);
+        = drive<dim>(sigma_trial, tau_trial, slip_of(point), slip);
     if (excess <= 0.) // the residual strength is above the peak's
       return { kn, {}, {}, isotropic<dim>(ks) };
 
@@ -403,29 +411,28 @@ namespace quoin
     const double by_opening
         = is_bounded ? 0. : kn * residual.friction / stiffness;
     Slip<dim> by_slip = direction * (is_bounded ? 1. : ks / stiffness);
-    JointTangent<dim> tangent;
-    if constexpr (dim == 3)
+    // Where slip turns, so do its direction and the share that dilates.
+    const double dp        = is_bounded ? largest : excess / stiffness;
+    const double turn      = largest > 0. ? dp / largest : 1.;
+    const Slip<dim> before = slip_of(point);
+    const double size      = magnitude(before) + magnitude(slip);
+    Slip<dim> psi_by_slip{};
+    if (size > 0. && largest > 0.
+        && magnitude(slip) < critical_shear_displacement)
     {
-      // Where slip turns, so do its direction and the share that dilates.
-      const double dp   = is_bounded ? largest : excess / stiffness;
-      const double size = magnitude(slip);
-      const double turn = dp / largest;
-      Slip<dim> psi_by_slip;
-      if (size > 0. && size < critical_shear_displacement)
-      {
-        const Slip<dim> along = slip / size;
-        const double c        = direction * along;
-        psi_by_slip           = dilation
-                      * ((along - c * direction) / largest
-                         + (direction - c * along) / size);
-      }
-      if (!is_bounded && stiffness != ks)
-        by_slip -= dp / stiffness * kn * residual.friction * psi_by_slip;
-      tangent.normal_slip = -kn * dp * psi_by_slip;
-      tangent.shear_slip
-          = -ks * turn
-            * (isotropic<dim>(1.) - outer_product(direction, direction));
+      const Slip<dim> along = (before + slip) / size;
+      const double c        = direction * along;
+      psi_by_slip           = dilation
+                    * ((along - c * direction) / largest
+                       + (direction - c * direction_of(slip)) / size);
     }
+    if (!is_bounded && stiffness != ks)
+      by_slip -= dp / stiffness * kn * residual.friction * psi_by_slip;
+    JointTangent<dim> tangent;
+    tangent.normal_slip = -kn * dp * psi_by_slip;
+    tangent.shear_slip
+        = -ks * turn
+          * (isotropic<dim>(1.) - outer_product(direction, direction));
     tangent.normal_opening = kn - kn * psi * by_opening;
     tangent.normal_slip += -kn * psi * by_slip;
     tangent.shear_opening = -direction * ks * by_opening;

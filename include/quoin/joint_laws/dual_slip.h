@@ -96,14 +96,18 @@ namespace quoin
     return size.value > 0. ? slip / size : DualSlip{ { { 1., 0. } } };
   }
 
-  inline double cosine(const double direction, const DualNumber<2> &slip)
+  inline DualNumber<2> growth(const double direction,
+                              const DualNumber<2> &before,
+                              const DualNumber<2> &after)
   {
-    return cosine(direction, slip.value);
+    const DualNumber<2> size = magnitude(before) + magnitude(after);
+    return size.value > 0. ? direction * (before + after) / size : 1.;
   }
-  inline DualNumber<3> cosine(const DualSlip &direction, const DualSlip &slip)
+  inline DualNumber<3> growth(const DualSlip &direction, const DualSlip &before,
+                              const DualSlip &after)
   {
-    const DualNumber<3> size = magnitude(slip);
-    return size.value > 0. ? direction * slip / size : 1.;
+    const DualNumber<3> size = magnitude(before) + magnitude(after);
+    return size.value > 0. ? direction * (before + after) / size : 1.;
   }
 
   /** Distance from the origin of the line through @p place along @p way, which

@@ -57,18 +57,18 @@ namespace quoin
     return direction;
   }
 
-  /** Cosine of the angle between the unit vector @p direction and @p slip; 1
-      if there is no slip yet. */
-  inline double cosine(const double direction, const double slip)
+  /**
+   * Growth of the distance from the origin by a slip of unit length along
+   * @p direction, in a step from the slip @p before to the slip @p after;
+   * 1 where there is no slip yet. As
+   * |b| - |a| = (b - a) . (a + b) / (|a| + |b|), the growths of steps of any
+   * size add up to the change of distance, however the path turns.
+   */
+  template <typename Slip>
+  double growth(const Slip &direction, const Slip &before, const Slip &after)
   {
-    return direction * slip >= 0. ? 1. : -1.;
-  }
-  template <int n>
-  double cosine(const dealii::Tensor<1, n> &direction,
-                const dealii::Tensor<1, n> &slip)
-  {
-    const double size = slip.norm();
-    return size > 0. ? direction * slip / size : 1.;
+    const double size = magnitude(before) + magnitude(after);
+    return size > 0. ? direction * (before + after) / size : 1.;
   }
 
   /** The product a b^T. */

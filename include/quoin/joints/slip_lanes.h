@@ -151,16 +151,14 @@ namespace quoin
                    is_long ? a.component[1] / size : none } };
       }
     }
-    /** @p size: magnitude(slip) */
-    friend QUOIN_INLINE Value cosine(const SlipLanes &direction,
-                                     const SlipLanes &slip, const Value &size)
+    /** See joint_point.h. */
+    friend QUOIN_INLINE Value growth(const SlipLanes &direction,
+                                     const SlipLanes &before,
+                                     const SlipLanes &after)
     {
       const Value none{};
-      const Value along = dot(direction, slip);
-      if constexpr (n == 1)
-        return along >= 0. ? none + 1. : none - 1.;
-      else
-        return size > 0. ? along / size : none + 1.;
+      const Value size = magnitude(before) + magnitude(after);
+      return size > 0. ? dot(direction, before + after) / size : none + 1.;
     }
   };
 } // namespace quoin

@@ -360,3 +360,34 @@ TEST(SlipVector, FrictionOpposesSlipAndDilationIsACone)
   EXPECT_NEAR(walk.point.shear_traction[1], bearing, 2e-3 * bearing);
   EXPECT_NEAR(walk.point.shear_traction[0], 0., 2e-3 * bearing);
 }
+
+TEST(SlipVector, DilationInLargeStepsRoundTheOrigin)
+{
+  // On a circle the strength c bends the springs by e = c/ks along the path of
+  // the plastic slip, so that the cosine between that and the slip is e/radius
+  // and the plastic slip goes round on the circle sqrt(radius^2 - e^2).
+  CoulombLaw law                  = dilatant_coulomb();
+  law.residual                    = { 1e6, 0., 1e6 };
+  law.critical_shear_displacement = 1.;
+  constexpr double radius         = 2e-3;
+  for (const double stiffness : { 3e9, 3e12 })
+  {
+    law.shear_stiffness = stiffness;
+    const double e      = law.residual.cohesion / stiffness;
+    const double rise   = law.dilation * e / radius * 2. * M_PI
+                        * std::sqrt(radius * radius - e * e);
+    constexpr unsigned int n = 200;
+    JointPoint<3> point;
+    point.state  = JointState::slipped;
+    double start = 0.;
+    for (unsigned int i = 0; i <= 3 * n; ++i)
+    {
+      law.update(point, 0., along(2. * M_PI * i / n, radius));
+      if (i == 2 * n)
+        start = point.plastic_opening;
+    }
+    // Radial return shortens the path by e/radius of half a step.
+    EXPECT_NEAR(point.plastic_opening - start, rise,
+                (1.2 * e / radius * M_PI / n + 1e-3) * rise);
+  }
+}
