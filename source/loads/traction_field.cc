@@ -18,12 +18,62 @@ namespace quoin
 {
   namespace
   {
+    /** How often an edge is halved at most: a jump is found to a thousandth
+        of it. */
+    constexpr unsigned int most_halvings = 10;
     /** How often a triangle is divided at most: cut ones have edges of a
         sixteenth in the end. */
     constexpr unsigned int most_divisions = 4;
-    /** By how much of the largest traction one in a triangle may differ from
-        quadratic, for which the rule of three points is nearly exact. */
+    /** By how much of the largest traction one in a part of a face may differ
+        from quadratic, for which the rule of three points is nearly exact. */
     constexpr double most_deviation = 1e-3;
+
+    /** An interval on an edge of length 1. */
+    struct Interval
+    {
+      double begin, end;
+      unsigned int halvings = 0;
+
+      /** The place at @p x between -1 and 1. */
+      double at(const double x) const
+      {
+        return begin + 0.5 * (end - begin) * (1. + x);
+      }
+      double middle() const
+      {
+        return at(0.);
+      }
+    };
+    /** Places and weights of the Gauss rule of an interval. */
+    const std::array<double, 3> gauss = { -std::sqrt(0.6), 0., std::sqrt(0.6) };
+    constexpr std::array<double, 3> gauss_weights
+        = { 5. / 18., 8. / 18., 5. / 18. };
+
+    /** Whether @p q, a vector by place, at the outer points of the rule of
+        @p part differs from the quadratic function that is @p q at its middle
+        and just inside of its ends, where there may be jumps. */
+    template <typename Q>
+    bool deviates(const Interval &part, const Q &q)
+    {
+      constexpr double inside           = 1. - 1e-6;
+      const dealii::Tensor<1, 2> low    = q(part.at(-inside)),
+                                 middle = q(part.middle()),
+                                 high   = q(part.at(inside));
+      const double largest
+          = std::max({ low.norm(), middle.norm(), high.norm() });
+      for (const double x : { gauss[0], gauss[2] })
+      {
+        const dealii::Tensor<1, 2> value     = q(part.at(x));
+        const dealii::Tensor<1, 2> quadratic = 0.5 * x * (x - 1.) * low
+                                               + (1. - x * x) * middle
+                                               + 0.5 * x * (x + 1.) * high;
+        // No interval is divided where the traction is no number.
+        if ((value - quadratic).norm()
+            > most_deviation * std::max(largest, value.norm()))
+          return true;
+      }
+      return false;
+    }
 
     template <int dim>
     dealii::Point<3> in_space(const dealii::Point<dim> &point)
@@ -216,12 +266,10 @@ namespace quoin
   template <>
   void TractionField<2>::find_points(
       const Face &face, const std::vector<Cut> &cuts,
-      const std::function<dealii::Tensor<1, 2>(const dealii::Point<3> &)> &,
+      const std::function<dealii::Tensor<1, 2>(const dealii::Point<3> &)> &q,
       std::vector<QuadraturePoint> &points) const
   {
-    const double gauss[]       = { -std::sqrt(0.6), 0., std::sqrt(0.6) };
-    constexpr double weights[] = { 5. / 18., 8. / 18., 5. / 18. };
-    std::vector<double> ends   = { 0., 1. };
+    std::vector<double> ends = { 0., 1. };
     for (const Cut &cut : cuts)
       if (is_cut(face.points, cut.normal, cut.place))
       {
@@ -230,14 +278,31 @@ namespace quoin
                        / (cut.normal * face.points[1] - first));
       }
     std::sort(ends.begin(), ends.end());
-    points.clear();
-    for (unsigned int i = 0; i + 1 < ends.size(); ++i)
+    const auto q_at = [&](const double at)
     {
-      const double length = ends[i + 1] - ends[i];
-      for (unsigned int q = 0; q < 3; ++q)
+      return q(
+          dealii::Point<3>((1. - at) * face.points[0] + at * face.points[1]));
+    };
+    points.clear();
+    std::vector<Interval> left;
+    for (unsigned int i = 0; i + 1 < ends.size(); ++i)
+      left.push_back({ ends[i], ends[i + 1] });
+    while (!left.empty())
+    {
+      const Interval part = left.back();
+      left.pop_back();
+      if (is_function_of_place && part.halvings < most_halvings
+          && deviates(part, q_at))
       {
-        const double at = ends[i] + 0.5 * length * (1. + gauss[q]);
-        points.push_back({ { { 1. - at, at } }, weights[q] * length });
+        left.push_back({ part.begin, part.middle(), part.halvings + 1 });
+        left.push_back({ part.middle(), part.end, part.halvings + 1 });
+        continue;
+      }
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const double at = part.at(gauss[k]);
+        points.push_back({ { { 1. - at, at } },
+                           gauss_weights[k] * (part.end - part.begin) });
       }
     }
   }

@@ -23,11 +23,12 @@ namespace quoin
    * or tetrahedra of degree 1 that of moments, too.
    *
    * A face in two dimensions is divided where a moving shape has a jump or a
-   * kink and at the level of water; each part has a Gauss rule of three points,
-   * which is exact for a traction of degree 4. In three dimensions a face has a
-   * rule of three points, exact for a linear traction. It is divided into four,
-   * up to four times over, where one of these cuts it, and where a function of
-   * place is not nearly quadratic, as at its kinks and jumps.
+   * kink and at the level of water, and halved, up to ten times over, where a
+   * function of place is not nearly quadratic, as at its kinks and jumps; each
+   * part has a Gauss rule of three points, which is exact for a traction of
+   * degree 4. In three dimensions a face has a rule of three points, exact for
+   * a linear traction. It is divided into four, up to four times over, in all
+   * of these cases.
    */
   template <int dim>
   class TractionField

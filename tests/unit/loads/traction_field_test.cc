@@ -183,6 +183,34 @@ TEST(TractionField, SeveralAxlesMoveTogether)
   EXPECT_NEAR(forces.y, -force * (1.5 + 2.5), 1e-13);
 }
 
+// Resultants and moments of functions with kinks and jumps within an edge of
+// 3 m: those of triangles and rectangles; and of one that has neither.
+TEST(TractionField, FunctionsOfPlaceMayHaveKinksAndJumps)
+{
+  const Rectangle rectangle;
+  const auto forces = [&](const std::string &q)
+  {
+    return Forces(
+        rectangle,
+        rectangle.load("set Boundary = top\nset Vertical = " + q + "\n"),
+        { 1., 1. });
+  };
+  const double a    = 1.234567;
+  const Forces rise = forces("max(0, x - 1.234567)");
+  const double size = 0.5 * (3. - a) * (3. - a) * thickness;
+  EXPECT_NEAR(rise.y, size, 1e-6 * size);
+  EXPECT_NEAR(rise.moment, size * (a + 2. * (3. - a) / 3.), 3e-6 * size);
+  const Forces step = forces("if(x < 1.234567, 2, 0)");
+  EXPECT_NEAR(step.y, 2. * a * thickness, 1e-3 * 2. * a * thickness);
+  EXPECT_NEAR(step.moment, a * a * thickness, 1e-3 * a * a * thickness);
+  const Forces wave = forces("1 + sin(7*x)");
+  const double sum  = (3. + (1. - std::cos(21.)) / 7.) * thickness;
+  EXPECT_NEAR(wave.y, sum, 1e-6 * sum);
+  // no kink next to the largest value
+  const Forces flat = forces("1e6 + abs(x - 0.7)");
+  EXPECT_NEAR(flat.y, 1e6 * 3. * thickness, 1e-5 * 1e6);
+}
+
 // On the sides of a cube of 1 m: resultants, and the moments of a linear
 // traction; those with kinks and jumps are exact to what the parts of faces
 // resolve.
