@@ -388,6 +388,7 @@ namespace
         if (dimension == 2 && !(std::abs(x[2]) <= plane_tolerance * size))
         {
           std::ostringstream message;
+          message.precision(12);
           message << "node " << tags[i] << " at (" << x[0] << ", " << x[1]
                   << ", " << x[2]
                   << ") is off the plane z = 0. Draw the geometry in the "

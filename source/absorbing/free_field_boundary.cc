@@ -3,6 +3,7 @@
 
 #include <quoin/base/number_text.h>
 #include <quoin/base/packed_vectors.h>
+#include <quoin/base/point_text.h>
 #include <quoin/operators/archive.h>
 #include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/nodal_load.h>
@@ -20,12 +21,12 @@ namespace quoin
 
     std::string at(const double x, const double y)
     {
-      return text_of("(", x, ", ", y, ") m");
+      return point_text(dealii::Point<2>(x, y)) + " m";
     }
 
     std::string at(const dealii::Point<3> &p)
     {
-      return text_of("(", p[0], ", ", p[1], ", ", p[2], ") m");
+      return point_text(p) + " m";
     }
 
     /** An edge of a side in the plane. */

@@ -5,6 +5,7 @@
 #include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/absorbing/plane_waves.h>
 
@@ -184,8 +185,8 @@ namespace quoin
           if (p[2] > *load.free_surface + 1e-6 * std::abs(p[2]))
             throw InputError(text_of(
                 section_of(load), "'Free surface = ", *load.free_surface,
-                "' is below (", p[0], ", ", p[1], ", ", p[2],
-                ") m of the boundary. Give the height of the ground above the "
+                "' is below ", point_text(p),
+                " m of the boundary. Give the height of the ground above the "
                 "model."));
     }
 

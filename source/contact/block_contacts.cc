@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/point_text.h>
 #include <quoin/base/wall_clock.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/joint_handover.h>
@@ -798,8 +799,8 @@ namespace quoin
     if (!first_point(node_map, fast, p, &block)) // the root was rounded
       p = point_of_block(node_map, block);       // otherwise than here
     std::ostringstream message;
-    message << "block " << block << ", at rest at (" << p[0] << ", " << p[1]
-            << ") m, moves at " << speed << " m/s, that is " << speed * dt
+    message << "block " << block << ", at rest at " << point_text(p)
+            << " m, moves at " << speed << " m/s, that is " << speed * dt
             << " m a step at time " << state.time << " s, step " << state.step
             << ": so fast that it would pass through others, whose skin is "
             << search.skin().largest()

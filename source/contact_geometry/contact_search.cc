@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/point_text.h>
 #include <quoin/contact_geometry/contact_search.h>
 
 #include <boost/geometry/geometries/box.hpp>
@@ -308,8 +309,9 @@ namespace quoin
       message << "more than " << most_pairs
               << " pairs of edges are nearer than " << skin
               << " m to each other, too many for the contact search. The edge "
-              << "from (" << edge.x[0] << ", " << edge.y[0] << ") to ("
-              << edge.x[1] << ", " << edge.y[1] << ") m is near " << n
+              << "from " << point_text(dealii::Point<2>(edge.x[0], edge.y[0]))
+              << " to " << point_text(dealii::Point<2>(edge.x[1], edge.y[1]))
+              << " m is near " << n
               << " more. Let fewer blocks meet at a point, or take "
               << "'Displacements = small' in section 'Contact'.";
       throw RunError(message.str());

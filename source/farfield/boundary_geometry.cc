@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/point_text.h>
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
@@ -27,13 +28,6 @@ namespace quoin
     [[noreturn]] void fail(const std::string &name, const std::string &why)
     {
       throw InputError("section 'Boundary elements/" + name + "': " + why);
-    }
-
-    std::string text(const dealii::Point<2> &point)
-    {
-      std::ostringstream stream;
-      stream << "(" << point[0] << ", " << point[1] << ")";
-      return stream.str();
     }
 
     /** A polyline; if it is closed, the first point is not repeated. */
@@ -317,16 +311,17 @@ namespace quoin
       std::vector<unsigned int> ends;
       for (const auto &[v, list] : edges_of)
         if (list.size() > 2)
-          fail(parameters.name, "'Curves': they branch at " + text(position(v))
+          fail(parameters.name, "'Curves': they branch at "
+                                    + point_text(position(v))
                                     + ". Make one boundary of each branch.");
         else if (list.size() == 1)
           ends.push_back(v);
       if (ends.size() > 2)
         fail(parameters.name, "'Curves': they do not hang together; ends are "
                               "at "
-                                  + text(position(ends[0])) + ", "
-                                  + text(position(ends[1])) + " and "
-                                  + text(position(ends[2]))
+                                  + point_text(position(ends[0])) + ", "
+                                  + point_text(position(ends[1])) + " and "
+                                  + point_text(position(ends[2]))
                                   + ". Make one boundary of each piece.");
 
       auto [order, forward]
@@ -477,8 +472,8 @@ namespace quoin
                      "Use inside or outside."
                    : "'Domain' is inside or outside, but the curves are open: "
                      "they go from "
-                         + text(curve.points.front()) + " to "
-                         + text(curve.points.back())
+                         + point_text(curve.points.front()) + " to "
+                         + point_text(curve.points.back())
                          + ". Use left or right of that direction.");
         if (parameters.n_elements == 0 && length == 0.)
           break;
@@ -512,7 +507,7 @@ namespace quoin
           if ((E.middle() - F.middle()).norm()
               > 0.5001 * (E.length() + F.length()))
             continue;
-          const std::string where = ": elements near " + text(E.middle())
+          const std::string where = ": elements near " + point_text(E.middle())
                                     + ", of '" + name(e) + "' and '" + name(f)
                                     + "', ";
           if ((E.a == F.a && E.b != F.b) || (E.b == F.b && E.a != F.a))

@@ -2,12 +2,12 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/point_text.h>
 #include <quoin/farfield/interface_transfer.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace quoin
 {
@@ -16,9 +16,7 @@ namespace quoin
 
     std::string place(const dealii::Point<2> &x)
     {
-      std::ostringstream text;
-      text << "(" << x[0] << ", " << x[1] << ") m";
-      return text.str();
+      return point_text(x) + " m";
     }
 
     /** Overlap of the segment @p element and the edge from @p a to @p b. */

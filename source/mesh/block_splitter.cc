@@ -5,6 +5,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/base/none.h>
+#include <quoin/base/point_text.h>
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 
@@ -14,7 +15,6 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -132,12 +132,7 @@ namespace quoin
       }
       static std::string at(const Point &p)
       {
-        std::ostringstream text;
-        text << " at (" << p[0];
-        for (unsigned int d = 1; d < dim; ++d)
-          text << ", " << p[d];
-        text << ")";
-        return text.str();
+        return " at " + point_text(p);
       }
       static constexpr const char *cells_word
           = dim == 2 ? "triangles" : "tetrahedra";

@@ -3,6 +3,7 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/mesh/mesh_report.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -526,8 +527,8 @@ namespace quoin
     std::vector<std::string> result;
     const auto position = [&](const dealii::Point<3> &p)
     {
-      return dimension == 2 ? text_of("(", p[0], ", ", p[1], ")")
-                            : text_of("(", p[0], ", ", p[1], ", ", p[2], ")");
+      return dimension == 2 ? point_text(dealii::Point<2>(p[0], p[1]))
+                            : point_text(p);
     };
     if (unmatched_size > 0.)
       result.push_back(

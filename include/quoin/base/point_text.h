@@ -6,16 +6,24 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 
 namespace quoin
 {
-  /** "(1, 2)" for a message, with six digits. */
+  /** "(1, 2)" for a message, with six digits, and three decimals at least where
+      coordinates [m] are larger than that, such as those of maps. */
   template <int dim>
   std::string point_text(const dealii::Tensor<1, dim> &point)
   {
+    double largest = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      largest = std::max(largest, std::abs(point[d]));
     std::ostringstream text;
+    if (std::isfinite(largest))
+      text.precision(std::max(6, 4 + static_cast<int>(std::log10(largest))));
     for (unsigned int d = 0; d < dim; ++d)
       text << (d == 0 ? "(" : ", ") << point[d];
     text << ")";
