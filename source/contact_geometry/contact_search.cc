@@ -3,11 +3,8 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
+#include <quoin/base/rtree.h>
 #include <quoin/contact_geometry/contact_search.h>
-
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
 
 #include <algorithm>
 #include <cmath>

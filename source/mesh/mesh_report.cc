@@ -4,14 +4,13 @@
 #include <quoin/base/constants.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/point_text.h>
+#include <quoin/base/rtree.h>
 #include <quoin/mesh/mesh_report.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/boost_adaptors/point.h>
 
 #include <boost/geometry.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/index/rtree.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,11 +4,8 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/plane_geometry.h>
+#include <quoin/base/rtree.h>
 #include <quoin/rock/joint_network.h>
-
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -96,9 +96,13 @@ namespace quoin
    *
    * so that phi_m = phi + (phi_m0 - phi) exp(-p/R). r is |tau|/tau_m where
    * slip last turned to load again, at most 0.75; F is at most 1, and negative
-   * where wear or a falling pressure has left |tau| above tau_m. The joint
-   * dilates by tan(i) dp, i = atan(|tau|/s) - phi, between zero and
-   * phi_m0 - phi.
+   * where wear has left |tau| above tau_m. The joint dilates by tan(i) dp,
+   * i = atan(|tau|/s) - phi, between zero and phi_m0 - phi.
+   *
+   * Where tau_m falls other than by wear, with the pressure or as the law is
+   * replaced by a weaker one, |tau| falls with it at once, by plastic slip, to
+   * tau_m, or in proportion if wear had left it above. By the rates alone it
+   * would wait for slip, and a joint at rest would bear more than its strength.
    *
    * Slip against the traction unloads: it is elastic, F = 1, and beyond zero
    * loading begins with r = 0. Where slip is a vector, these rates are those of
@@ -194,8 +198,15 @@ namespace quoin
     /** flow() under a given strength: tractions and slips alone. */
     template <int dim, typename Number>
     RockFlow<dim, Number> load(const RockPoint<dim> &point,
+                               const SlipOf<dim, Number> &before,
                                const Number &strength, const Number &ks,
                                const SlipOf<dim, Number> &slip) const;
+
+    /** tau of @p point as it has fallen with the strength, which is
+        @p strength now; see above. */
+    template <int dim, typename Number>
+    SlipOf<dim, Number> lowered(const RockPoint<dim> &point,
+                                const Number &strength) const;
 
     /** The size that a shear traction of the size @p tau grows to, loaded by
         the elastic increment @p growth [Pa]. */
@@ -228,12 +239,12 @@ namespace quoin
   template <int dim, typename Number>
   RockFlow<dim, Number>
   ContinuouslyYieldingLaw::load(const RockPoint<dim> &point,
+                                const SlipOf<dim, Number> &before,
                                 const Number &strength, const Number &ks,
                                 const SlipOf<dim, Number> &slip) const
   {
     RockFlow<dim, Number> result;
     const double ks_old = shear_stiffness(-point.normal_traction);
-    const auto before   = constant_slip<dim, Number>(point.shear_traction);
     const auto moved    = slip
                        - constant_slip<dim, Number>(
                            point.plastic_slip + point.shear_traction / ks_old);
@@ -268,6 +279,19 @@ namespace quoin
   }
 
   template <int dim, typename Number>
+  SlipOf<dim, Number>
+  ContinuouslyYieldingLaw::lowered(const RockPoint<dim> &point,
+                                   const Number &strength) const
+  {
+    const auto tau    = constant_slip<dim, Number>(point.shear_traction);
+    const double size = magnitude(point.shear_traction);
+    const double above
+        = point.strength > 0. ? std::max(1., size / point.strength) : 1.;
+    const Number largest = above * strength;
+    return value_of(largest) < size ? Number(largest / size) * tau : tau;
+  }
+
+  template <int dim, typename Number>
   RockFlow<dim, Number>
   ContinuouslyYieldingLaw::flow(const RockPoint<dim> &point,
                                 const Number &closure_now,
@@ -278,14 +302,24 @@ namespace quoin
     const Number traction = closure.traction(closure_now);
     const Number ks       = stiffness.at(traction);
 
+    const auto strength_at = [&](const Number &worn)
+    { return Number(traction * tan(bounding_angle(worn))); };
+    const Number worn     = point.worn_slip;
+    const Number strength = strength_at(worn);
+    const auto before     = lowered<dim>(point, strength);
     // By the wear in the middle of the step.
-    const Number first
-        = load(point,
-               Number(traction * tan(bounding_angle(Number(point.worn_slip)))),
-               ks, slip)
-              .wear;
-    Number angle     = bounding_angle(Number(point.worn_slip + 0.5 * first));
-    auto result      = load(point, Number(traction * tan(angle)), ks, slip);
+    const Number first  = load(point, before, strength, ks, slip).wear;
+    const Number middle = worn + 0.5 * first;
+    auto result         = load(point, before, strength_at(middle), ks, slip);
+    const Number fallen
+        = (magnitude(point.shear_traction) - magnitude(before)) / ks;
+    if (value_of(fallen) > 0.)
+    {
+      result.wear  = result.wear + fallen;
+      result.slips = true;
+    }
+    result.strength  = strength_at(worn + result.wear);
+    Number angle     = bounding_angle(middle);
     const Number tau = magnitude(result.shear_traction);
     if (value_of(tau) >= value_of(traction) * std::tan(initial_angle))
     {

@@ -26,9 +26,11 @@ namespace quoin
     double worn_slip = 0.; /**< sum of |dp| while closed [m] */
     double dilated   = 0.; /**< part of w that reverse slip recovers [m] */
     double reload    = 0.; /**< |tau|/strength where loading began anew [-] */
+    double strength  = 0.; /**< tau_m at the end of the last step [Pa] */
 
-    static constexpr std::array<double RockPoint::*, 3> internal
-        = { &RockPoint::worn_slip, &RockPoint::dilated, &RockPoint::reload };
+    static constexpr std::array<double RockPoint::*, 4> internal
+        = { &RockPoint::worn_slip, &RockPoint::dilated, &RockPoint::reload,
+            &RockPoint::strength };
   };
 
   /** Shear response of a point with known closure. */
@@ -37,10 +39,11 @@ namespace quoin
   {
     SlipOf<dim, Number> shear_traction{}; /**< [Pa] */
     SlipOf<dim, Number> plastic_slip{};   /**< p at the end [m] */
-    Number opening = 0.;                  /**< increment of w, dilation [m] */
-    Number wear    = 0.;                  /**< increment of worn_slip [m] */
-    Number reload  = 0.;                  /**< RockPoint::reload at the end */
-    bool slips     = false;
+    Number opening  = 0.;                 /**< increment of w, dilation [m] */
+    Number wear     = 0.;                 /**< increment of worn_slip [m] */
+    Number reload   = 0.;                 /**< RockPoint::reload at the end */
+    Number strength = 0.;                 /**< RockPoint::strength at the end */
+    bool slips      = false;
   };
 
   /** Updated variables of a point. */
@@ -162,6 +165,7 @@ namespace quoin
     {
       point.plastic_slip = slip;
       point.reload       = 0.;
+      point.strength     = 0.;
       point.state        = JointState::open;
       return lost;
     }
@@ -169,7 +173,8 @@ namespace quoin
     point.plastic_opening += opened;
     point.dilated += opened;
     point.worn_slip += step.flow.wear;
-    point.reload = step.flow.reload;
+    point.reload   = step.flow.reload;
+    point.strength = step.flow.strength;
     if (step.flow.slips)
       point.state = JointState::slipping;
     else if (point.state != JointState::intact)

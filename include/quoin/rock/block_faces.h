@@ -4,11 +4,8 @@
 #ifndef quoin_rock_block_faces_h
 #define quoin_rock_block_faces_h
 
+#include <quoin/base/rtree.h>
 #include <quoin/rock/joint_network.h>
-
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
 
 #include <utility>
 #include <vector>

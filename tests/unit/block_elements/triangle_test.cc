@@ -6,6 +6,8 @@
 #include <quoin/block_elements/triangle.h>
 #include <quoin/blocks/cell_states.h>
 
+#include <deal.II/base/array_view.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

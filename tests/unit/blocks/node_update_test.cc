@@ -3,6 +3,8 @@
 
 #include <quoin/blocks/node_update.h>
 
+#include <deal.II/base/array_view.h>
+
 #include <gtest/gtest.h>
 
 #include <random>

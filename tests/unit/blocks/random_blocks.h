@@ -7,6 +7,8 @@
 #include <quoin/base/node_record.h>
 #include <quoin/blocks/block_forces.h>
 
+#include <deal.II/base/array_view.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>

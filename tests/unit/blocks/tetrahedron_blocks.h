@@ -10,6 +10,8 @@
 #include <quoin/blocks/node_update.h>
 #include <quoin/blocks/stable_time_step.h>
 
+#include <deal.II/base/array_view.h>
+
 #include <Eigen/Dense>
 
 #include <gtest/gtest.h>
