@@ -192,6 +192,7 @@ namespace quoin
   {
     const Energies &energies = system.solver->energies();
     most_residual = std::max(most_residual, std::abs(energies.residual()));
+    most_energy   = std::max(most_energy, energies.throughput());
     most_kinetic  = std::max(most_kinetic, energies.kinetic);
     std::vector<double> row = { time };
     for (const EnergyAccount &account : energy_accounts)

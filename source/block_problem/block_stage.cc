@@ -4,6 +4,7 @@
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/operators/archive.h>
 #include <quoin/block_problem/block_stage.h>
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/results/result_origin.h>
 
 namespace quoin
@@ -42,8 +43,31 @@ namespace quoin
   double BlockContext<dim>::energy_residual() const
   {
     const Energies &energies = system.solver->energies();
-    const double scale       = energies.throughput();
+    const double scale       = std::max(
+              { energies.throughput(), outputs.largest_energy(), rounding });
     return scale > 0. ? energies.residual() / scale : 0.;
+  }
+
+  template <int dim>
+  void BlockContext<dim>::note_rounding()
+  {
+    /** Motion of the whole model [m/s] and of the loads, by its size [-], of
+        which at least energies are made: strains of elastic models are larger
+        by some powers of ten. */
+    constexpr double least_velocity = 1e-10, least_motion = 1e-12;
+    const NodeMap<dim> &nodes = system.model->nodes();
+    AlignedArray<dealii::Tensor<1, dim>> forces(state.nodes.size(),
+                                                dealii::Tensor<1, dim>());
+    for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
+      load->add_loads({ state.load_time, state.time }, forces.data());
+    nodes.exchange().add_to_owners(forces.data());
+    double energy = 0.;
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      energy += system.model->mass()[i] * least_velocity * least_velocity
+                + least_motion * system.nodes->table().diagonal()
+                      * forces[i].norm();
+    rounding = std::max(rounding,
+                        dealii::Utilities::MPI::sum(energy, run.communicator));
   }
 
   template <int dim>
@@ -61,6 +85,7 @@ namespace quoin
   {
     system.begin_stage(index, state);
     outputs.begin_stage(stage.reset, state);
+    context.note_rounding();
   }
 
   template <int dim>
@@ -71,8 +96,10 @@ namespace quoin
     check_cells(*system.model, state, stage.loads);
     follow_joint_motion();
     warn_of_joint_motion();
+    warn_of_lost_bond();
     if (const std::string what = context.loads[index].warning(); !what.empty())
       log.warning("stage ", stage.name, ": ", what);
+    context.note_rounding();
     warn_of_damping();
     warn_of_control();
     keep_unreleased_forces();
@@ -80,6 +107,28 @@ namespace quoin
     outputs.end_stage(state);
     ++state.stage;
     outputs.write_fields(state);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_lost_bond()
+  {
+    /** Share of the points with a bond that may lose it without a word. */
+    constexpr double most = 0.01;
+    if (!system.explicit_solver || stage.end != StageEnd::static_ratio)
+      return;
+    const auto [lost, all] = n_without_bond(
+        system.model->joints(), state.template get<JointHistoryOf<dim>>(),
+        context.run.communicator);
+    if (lost > context.without_bond + most * all)
+      log.warning(
+          "stage ", stage.name, ": ", lost, " of ", all,
+          " points of joints with cohesion have lost it, although they "
+          "would bear the tractions at the end of the stage with it: "
+          "they opened or slipped while the loads came on. Cohesion "
+          "without 'Tensile strength' is lost as soon as a joint opens. "
+          "Give them a small one, begin with a load of the type "
+          "'initial stress', or take 'Solver = implicit', and compare.");
+    context.without_bond = lost;
   }
 
   template <int dim>

@@ -19,6 +19,8 @@ namespace quoin
     /** Automatic failure displacement, by the mean displacement with which the
         loads have deformed the model, or by its diagonal. */
     constexpr double failure_by_loading = 10., failure_by_diagonal = 1e-3;
+    /** At least, by the slip that mobilises the peak strength of joints. */
+    constexpr double failure_by_slip = 2.;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
     /** Share of the failure displacement at which a trial of the implicit
@@ -293,6 +295,7 @@ namespace quoin
                          state);
       const double limit = failure_displacement();
       JumpWatch watch(limit);
+      double last   = 0.; // largest displacement after the last step [m]
       trial.verdict = Verdict::undecided;
       try
       {
@@ -309,15 +312,19 @@ namespace quoin
           // Forces that are released slowly may lead ground that flows from one
           // equilibrium to the next, until it lies as a heap. Whether it keeps
           // moving shows when it is released early, as the explicit solver
-          // does, whose displacements count from the start.
+          // does, whose displacements count from the start. An equilibrium
+          // farther away than the limit in one step may be one that the model
+          // would never reach, such as that of a block that swung on a bolt.
           const auto &was = before.template get<ImplicitState>();
-          if (!was.jumps && was.released < 1.
-              && displacement > released_at * limit)
+          if (!was.jumps
+              && (was.released < 1. ? displacement > released_at * limit
+                                    : displacement > last + limit))
           {
             state = before;
             solver.move_against_drag(state);
             continue;
           }
+          last            = displacement;
           const auto &now = state.template get<ImplicitState>();
           if (watch.has_failed(now.jumps, now.drag_time, displacement))
           {
@@ -370,9 +377,14 @@ namespace quoin
         force += forces[i].norm();
       energy = dealii::Utilities::MPI::sum(energy, context.run.communicator);
       force  = dealii::Utilities::MPI::sum(force, context.run.communicator);
-      return force > 0. && energy > 0.
-                 ? failure_by_loading * 2. * energy / force
-                 : failure_by_diagonal * system.nodes->table().diagonal();
+      double slip = 0.;
+      for (const JointSetParameters &set : strong.joints)
+        slip = std::max(slip, slip_of_peak(set.law));
+      return std::max(failure_by_slip * slip,
+                      force > 0. && energy > 0.
+                          ? failure_by_loading * 2. * energy / force
+                          : failure_by_diagonal
+                                * system.nodes->table().diagonal());
     }
 
     template <int dim>

@@ -69,6 +69,23 @@ namespace quoin
     }
   }
 
+  std::array<double, 2> n_without_bond(const MatchedJoints &joints,
+                                       const JointHistory &history,
+                                       const MPI_Comm communicator)
+  {
+    std::array<double, 2> n{};
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
+      with_law(joints, joints.segments()[i],
+               [&](const auto &law)
+               {
+                 for (const unsigned int p : { 2 * i, 2 * i + 1 })
+                   count_bond(law, read_point(law, history, p),
+                              joints.segments()[i].share, n);
+               });
+    return { dealii::Utilities::MPI::sum(n[0], communicator),
+             dealii::Utilities::MPI::sum(n[1], communicator) };
+  }
+
   double n_beyond_strength(const MatchedJoints &joints,
                            const JointHistory &history,
                            const MPI_Comm communicator)

@@ -52,6 +52,23 @@ namespace quoin
     }
   }
 
+  std::array<double, 2> n_without_bond(const SpaceJoints &joints,
+                                       const SpaceJointHistory &history,
+                                       const MPI_Comm communicator)
+  {
+    std::array<double, 2> n{};
+    for (unsigned int p = 0; p < joints.n_points(); ++p)
+    {
+      const SpaceJointFace &face = joints.faces()[p / 3];
+      std::visit(
+          [&](const auto &law)
+          { count_bond(law, read_point(law, history, p), face.share, n); },
+          joints.laws()[face.set]);
+    }
+    return { dealii::Utilities::MPI::sum(n[0], communicator),
+             dealii::Utilities::MPI::sum(n[1], communicator) };
+  }
+
   double n_beyond_strength(const SpaceJoints &joints,
                            const SpaceJointHistory &history,
                            const MPI_Comm communicator)

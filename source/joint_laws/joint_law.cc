@@ -21,6 +21,12 @@ namespace quoin
     return std::visit([](const auto &own) { return own.can_fail(); }, law);
   }
 
+  double slip_of_peak(const JointLaw &law)
+  {
+    return std::visit([](const auto &own) { return own.slip_of_peak(); },
+                      law);
+  }
+
   bool can_dilate(const JointLaw &law)
   {
     return std::visit([](const auto &own) { return own.can_dilate(); }, law);

@@ -84,10 +84,61 @@ namespace quoin
                                  meant_stiffness };
     const Range crushing{ "Compressive strength", 1e4, 1e10, "Pa",
                           meant_strength };
-    const Range thickness{ "Thickness", 1e-3, 50., "m", [](const double value) {
-                            return text_of("in mm it would be ", 1e-3 * value,
-                                           " m");
-                          } };
+    std::string meant_length(const double value)
+    {
+      return text_of("in mm it would be ", 1e-3 * value, " m");
+    }
+
+    std::string meant_force(const double value)
+    {
+      return text_of("in kN it would be ", 1e3 * value, " N");
+    }
+
+    std::string meant_moment(const double value)
+    {
+      return text_of("in kN m it would be ", 1e3 * value, " N m");
+    }
+
+    std::string meant_unit_weight(const double value)
+    {
+      if (value < 50.)
+        return text_of("in kN/m^3 it would be ", 1e3 * value, " N/m^3");
+      return text_of("as a density in kg/m^3 it would be ", 9.81 * value,
+                     " N/m^3");
+    }
+
+    const Range thickness{ "Thickness", 1e-3, 50., "m", meant_length };
+    const Range wall_strength{ "Joint wall strength", 1e5, 1e9, "Pa",
+                               meant_strength };
+    const Range closure{ "Largest closure", 1e-7, 0.02, "m", meant_length };
+    const Range unit_weight{ "Unit weight", 5e3, 1e5, "N/m^3",
+                             meant_unit_weight };
+
+    /** Ranges of values in all sections of a kind. */
+    struct KindOfSection
+    {
+      std::string section, what;
+      std::vector<Range> ranges;
+    };
+    const std::vector<KindOfSection> &kinds_of_sections()
+    {
+      static const std::vector<KindOfSection> kinds
+          = { { "Reinforcement",
+                "bolts",
+                { { "Diameter", 1e-3, 1., "m", meant_length },
+                  { "Young's modulus", 1e9, 1e12, "Pa", meant_modulus },
+                  { "Yield force", 1e3, 1e9, "N", meant_force },
+                  { "Bond stiffness", 1e5, 1e13, "Pa", meant_modulus } } },
+              { "Beams",
+                "beam",
+                { { "Young's modulus", 1e8, 1e12, "Pa", meant_modulus },
+                  { "Thickness", 1e-3, 20., "m", meant_length },
+                  { "Hinge moment", 100., 1e10, "N m", meant_moment } } },
+              { "Water joints",
+                "water joints",
+                { { "Initial aperture", 1e-8, 0.05, "m", meant_length } } } };
+      return kinds;
+    }
 
     /** Adds a warning if the value of @p range in @p section, which is called
         @p where, is beyond it, but for 0 and words. */
@@ -104,6 +155,27 @@ namespace quoin
                   values[0] < range.low ? " is far less" : " is far more",
                   " than usual", meant.empty() ? "" : ": ", meant,
                   ". Check the unit."));
+    }
+
+    /** Times at the start, in the middle and at the end of the stages in which
+        @p load acts; late ones where their length is not known before. */
+    std::vector<TimePoint> times_of(const LoadParameters &load,
+                                    const Parameters &parameters)
+    {
+      std::vector<TimePoint> times;
+      double begin = 0.;
+      for (const StageParameters &stage : parameters.stages)
+      {
+        const double length = stage.duration > 0. && stage.end == StageEnd::time
+                                  ? stage.duration
+                              : parameters.is_implicit ? 1.
+                                                       : late_time;
+        if (names_load(stage, load.name))
+          for (const double t : { 0., 0.5 * length, length })
+            times.push_back({ t, begin + t });
+        begin += length;
+      }
+      return times;
     }
 
     /** Whether @p load is a weight that acts upwards all the time. */
@@ -149,9 +221,18 @@ namespace quoin
         check(own, where, stiffness, warnings);
         if (warnings.size() == n) // it would be the same mistake
           check(own, where, shear_stiffness, warnings);
-        for (const Range *range : { &cohesion, &friction, &tension, &crushing })
+        for (const Range *range : { &cohesion, &friction, &tension, &crushing,
+                                    &wall_strength, &closure })
           check(own, where, *range, warnings);
       }
+    }
+    for (const KindOfSection &kind : kinds_of_sections())
+    {
+      const ParameterSection section(top, kind.section);
+      for (const std::string &name : section.list("Names"))
+        for (const Range &range : kind.ranges)
+          check(ParameterSection(section, name), kind.what + " " + name + ": ",
+                range, warnings);
     }
     /** Acceleration that no weight of a structure has [m/s^2]. */
     constexpr double most_gravity = 100.;
@@ -159,12 +240,18 @@ namespace quoin
     {
       if (load.type == LoadType::gravity)
         for (const auto &given : load.given_components())
-          if (const double value
-              = given.component.value({ late_time, late_time });
-              std::abs(value) > most_gravity)
-            warnings.push_back(
-                text_of("load ", load.name, ": gravity of ", value,
-                        " m/s^2 is far more than usual. Check the unit."));
+          for (const TimePoint &time : times_of(load, parameters))
+            if (const double value = given.component.value(time);
+                std::abs(value) > most_gravity)
+            {
+              warnings.push_back(
+                  text_of("load ", load.name, ": gravity of ", value,
+                          " m/s^2 is far more than usual. Check the unit."));
+              break;
+            }
+      if (load.type == LoadType::initial_stress)
+        check(ParameterSection(ParameterSection(top, "Loads"), load.name),
+              "load " + load.name + ": ", unit_weight, warnings);
       if (acts_upwards(load))
         warnings.push_back("load " + load.name
                            + ": gravity acts upwards. Give 'Vertical' a minus "

@@ -46,7 +46,8 @@ namespace quoin
         "last two doublings of the time or by 3.24 in the last one; 0: ten "
         "times the mean elastic displacement under the loads, which is twice "
         "the stored energy of blocks and joints divided by the weights and "
-        "tractions, or a thousandth of the model's diagonal without loads [m]");
+        "tractions, or a thousandth of the model's diagonal without loads; at "
+        "least twice the peak slip of joints of the law 'Barton-Bandis' [m]");
     entries.choice(
         "Reduced strength", reduced,
         { { "joints and blocks", all },

@@ -70,6 +70,11 @@ namespace quoin
     {
       return most_residual;
     }
+    /** Largest energy throughput so far [J]. */
+    double largest_energy() const
+    {
+      return most_energy;
+    }
     /** Largest kinetic energy so far [J]. */
     double largest_kinetic() const
     {
@@ -79,8 +84,8 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &fields &boundary &all_histories &most_residual &most_kinetic
-          &largest_throughput &fields_time;
+      archive &fields &boundary &all_histories &most_residual &most_energy
+          &most_kinetic &largest_throughput &fields_time;
     }
 
   private:
@@ -114,6 +119,7 @@ namespace quoin
     BoundaryOutput boundary;
 
     double most_residual      = 0.;
+    double most_energy        = 0.;
     double most_kinetic       = 0.;
     double largest_throughput = 0.;  /**< boundary elements' too [J] */
     double fields_time        = -1.; /**< time of the last VTU files [s] */

@@ -96,7 +96,15 @@ namespace quoin
     /** Number of step reductions of the implicit solver. */
     std::uint64_t cuts = 0;
 
-    /** Residual of the energy balance, by the energy throughput [-]. */
+    double without_bond = 0.; /**< points, see n_without_bond() */
+    /** Energy below which residuals may be rounding [J]. */
+    double rounding = 0.;
+
+    /** Raises #rounding by the loads that act now; collective. */
+    void note_rounding();
+
+    /** Residual of the energy balance, by the largest energy throughput or
+        kinetic energy so far [-]. */
     double energy_residual() const;
   };
 
@@ -152,6 +160,8 @@ namespace quoin
   private:
     /** Warns of motions of joints for which displacements are not small. */
     void warn_of_joint_motion() const;
+    /** Warns if joints lost their bond while loads came on; collective. */
+    void warn_of_lost_bond();
     /** Records the loads of the row for @p time [s]. */
     void record_loads(double time);
     /** Warns of local damping that has carried a part of the loads. */

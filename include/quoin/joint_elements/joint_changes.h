@@ -7,6 +7,8 @@
 #include <quoin/joint_elements/matched_joints.h>
 #include <quoin/joint_elements/space_joints.h>
 
+#include <array>
+
 // How joints begin, under stress, and how they change between stages: where
 // blocks are taken away or placed, or follow other laws.
 
@@ -26,6 +28,22 @@ namespace quoin
   void initialise_joints(const SpaceJoints &joints,
                          const std::vector<JointFaceStress<3>> &face_stress,
                          State<3> &state);
+
+  /** Points, of all ranks, that have lost their bond although they would hold
+      with it now, and those of laws with a bond; see JointLawDefaults. */
+  template <typename Law, typename Point>
+  void count_bond(const Law &law, const Point &point, const double share,
+                  std::array<double, 2> &n)
+  {
+    n[0] += law.lost_its_bond(point) ? share : 0.;
+    n[1] += law.has_bond() ? share : 0.;
+  }
+  std::array<double, 2> n_without_bond(const MatchedJoints &joints,
+                                       const JointHistory &history,
+                                       MPI_Comm communicator);
+  std::array<double, 2> n_without_bond(const SpaceJoints &joints,
+                                       const SpaceJointHistory &history,
+                                       MPI_Comm communicator);
 
   /** Points, of all ranks, whose tractions exceed their strength. */
   double n_beyond_strength(const MatchedJoints &joints,

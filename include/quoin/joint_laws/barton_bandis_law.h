@@ -27,11 +27,12 @@ namespace quoin
     /** Stiffnesses [Pa/m], @p largest not below @p first; Vm [m]. */
     HyperbolicClosure(double first, double largest_closure, double largest);
 
-    /** s [Pa] at the closure V [m]; none if that is negative. */
+    /** s [Pa] at the closure V [m]; none if that is negative. Its derivative
+        at zero is that of closing. */
     template <typename Number>
     Number traction(const Number &closure) const
     {
-      if (value_of(closure) <= 0.)
+      if (value_of(closure) < 0.)
         return 0.;
       if (value_of(closure) >= end_closure)
         return end_traction + largest * (closure - end_closure);
@@ -124,6 +125,11 @@ namespace quoin
     double largest_shear_stiffness() const
     {
       return stiffness;
+    }
+
+    double slip_of_peak() const
+    {
+      return peak_slip;
     }
 
     /** Dilation angle i [rad] by peak roughness at the traction s [Pa]. */

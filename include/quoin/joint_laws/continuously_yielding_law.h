@@ -44,14 +44,15 @@ namespace quoin
   public:
     explicit PowerClosure(const PowerStiffness &stiffness);
 
-    /** s [Pa] at the closure V [m]; none if that is negative. */
+    /** s [Pa] at the closure V [m]; none if that is negative. Its derivative
+        at zero is that of closing. */
     template <typename Number>
     Number traction(const Number &closure) const
     {
       using std::exp;
       using std::pow;
       const double V = value_of(closure);
-      if (V <= 0.)
+      if (V < 0.)
         return 0.;
       if (V <= low_closure)
         return low_stiffness * closure;
@@ -202,11 +203,12 @@ namespace quoin
                                const Number &strength, const Number &ks,
                                const SlipOf<dim, Number> &slip) const;
 
-    /** tau of @p point as it has fallen with the strength, which is
-        @p strength now; see above. */
-    template <int dim, typename Number>
+    /** tau of @p point as it has fallen with the strength that @p strength_at
+        gives after a worn slip, and which the fall itself wears; see above. */
+    template <int dim, typename Number, typename Strength>
     SlipOf<dim, Number> lowered(const RockPoint<dim> &point,
-                                const Number &strength) const;
+                                const Strength &strength_at,
+                                const Number &ks) const;
 
     /** The size that a shear traction of the size @p tau grows to, loaded by
         the elastic increment @p growth [Pa]. */
@@ -278,17 +280,29 @@ namespace quoin
     return result;
   }
 
-  template <int dim, typename Number>
+  template <int dim, typename Number, typename Strength>
   SlipOf<dim, Number>
   ContinuouslyYieldingLaw::lowered(const RockPoint<dim> &point,
-                                   const Number &strength) const
+                                   const Strength &strength_at,
+                                   const Number &ks) const
   {
+    constexpr unsigned int most_iterations = 60;
+    constexpr double precision             = 1e-14;
     const auto tau    = constant_slip<dim, Number>(point.shear_traction);
     const double size = magnitude(point.shear_traction);
     const double above
         = point.strength > 0. ? std::max(1., size / point.strength) : 1.;
-    const Number largest = above * strength;
-    return value_of(largest) < size ? Number(largest / size) * tau : tau;
+    Number lower = above * strength_at(Number(point.worn_slip));
+    if (!(value_of(lower) < (1. - precision) * size))
+      return tau;
+    for (unsigned int i = 0; i < most_iterations; ++i)
+    {
+      const double before = value_of(lower);
+      lower = above * strength_at(point.worn_slip + (size - lower) / ks);
+      if (before - value_of(lower) <= precision * size)
+        break;
+    }
+    return Number(lower / size) * tau;
   }
 
   template <int dim, typename Number>
@@ -304,23 +318,19 @@ namespace quoin
 
     const auto strength_at = [&](const Number &worn)
     { return Number(traction * tan(bounding_angle(worn))); };
-    const Number worn     = point.worn_slip;
-    const Number strength = strength_at(worn);
-    const auto before     = lowered<dim>(point, strength);
-    // By the wear in the middle of the step.
-    const Number first  = load(point, before, strength, ks, slip).wear;
-    const Number middle = worn + 0.5 * first;
-    auto result         = load(point, before, strength_at(middle), ks, slip);
+    const auto before = lowered<dim>(point, strength_at, ks);
     const Number fallen
         = (magnitude(point.shear_traction) - magnitude(before)) / ks;
-    if (value_of(fallen) > 0.)
-    {
-      result.wear  = result.wear + fallen;
-      result.slips = true;
-    }
-    result.strength  = strength_at(worn + result.wear);
-    Number angle     = bounding_angle(middle);
-    const Number tau = magnitude(result.shear_traction);
+    const Number worn = point.worn_slip + fallen;
+    // By the wear in the middle of the step.
+    const Number first  = load(point, before, strength_at(worn), ks, slip).wear;
+    const Number middle = worn + 0.5 * first;
+    auto result         = load(point, before, strength_at(middle), ks, slip);
+    result.strength     = strength_at(worn + result.wear);
+    result.wear         = result.wear + fallen;
+    result.slips        = result.slips || value_of(fallen) > 0.;
+    Number angle        = bounding_angle(middle);
+    const Number tau    = magnitude(result.shear_traction);
     if (value_of(tau) >= value_of(traction) * std::tan(initial_angle))
     {
       if (value_of(traction) > 0.)

@@ -93,6 +93,18 @@ namespace quoin
     {
       return std::isfinite(peak.tension);
     }
+    bool has_bond() const
+    {
+      return can_fail() && peak.cohesion > residual.cohesion;
+    }
+    template <int dim>
+    bool lost_its_bond(const JointPoint<dim> &point) const
+    {
+      return has_bond() && point.state != JointState::intact
+             && point.normal_traction < 0.
+             && peak.bears(point.normal_traction,
+                           magnitude(point.shear_traction));
+    }
     bool can_dilate() const
     {
       return dilation != 0.;

@@ -68,6 +68,9 @@ namespace quoin
   /** Whether slip may open the joint. */
   bool can_dilate(const JointLaw &law);
 
+  /** Slip [m] that mobilises the peak strength, beside the elastic one. */
+  double slip_of_peak(const JointLaw &law);
+
   /** Laws of one kind remember the same of a joint. */
   std::string kind_of_law(const JointLaw &law);
 

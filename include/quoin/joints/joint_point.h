@@ -180,6 +180,23 @@ namespace quoin
     {
       return true;
     }
+    /** Whether the joint has cohesion that failure takes. */
+    bool has_bond() const
+    {
+      return false;
+    }
+    /** Whether @p point, which is closed, has lost its cohesion although it
+        would bear its tractions with it. */
+    template <typename Point>
+    bool lost_its_bond(const Point &) const
+    {
+      return false;
+    }
+    /** Slip [m] that mobilises the peak strength, beside the elastic one. */
+    double slip_of_peak() const
+    {
+      return 0.;
+    }
     /** Sets the internal variables of @p point to those of a new contact: a
        joint at its residual strength. */
     template <typename Point>

@@ -4,7 +4,7 @@
 """A block of weight W on a plane inclined by a, with a bolt that yields at T and
 whose direction from its head has the components -t down the plane and -n off it:
 
-  F = (W cos a + T n) tan phi/(W sin a - T t) ."""
+  F = ((W cos a + T n) tan phi + c A)/(W sin a - T t) ."""
 import os
 
 import numpy as np
@@ -14,13 +14,15 @@ WEIGHT = 2700 * 0.4 * 10
 SLOPE, FRICTION = np.radians(35), np.radians(40)
 YIELD = 3e3
 LENGTH = np.hypot(0.3, 0.7)
+COHESION = 4e3  # over 1 m^2
 
 
-def factor(force):
-    return ((WEIGHT * np.cos(SLOPE) + force * 0.7 / LENGTH) * np.tan(FRICTION)
+def factor(force, cohesion=0.):
+    return (((WEIGHT * np.cos(SLOPE) + force * 0.7 / LENGTH)
+             * np.tan(FRICTION) + cohesion)
             / (WEIGHT * np.sin(SLOPE) - force * 0.3 / LENGTH))
 
 
 with open(os.path.join(HERE, "factors.csv"), "w") as stream:
-    stream.write("bolted [-],without [-]\n%.9g,%.9g\n"
-                 % (factor(YIELD), factor(0)))
+    stream.write("bolted [-],without [-],cohesive [-]\n%.9g,%.9g,%.9g\n"
+                 % (factor(YIELD), factor(0), factor(YIELD, COHESION)))

@@ -207,3 +207,37 @@ TEST(ContinuouslyYieldingLaw, StartsAtRestUnderAnyTraction)
       EXPECT_EQ(point.state, JointState::intact);
     }
 }
+
+TEST(ContinuouslyYieldingLaw, ShearFallsWithTheStrength)
+{
+  const auto bound
+      = [](const ContinuouslyYieldingLaw &law, const RockPoint<2> &point)
+  {
+    return -point.normal_traction
+           * std::tan(law.bounding_angle(point.worn_slip));
+  };
+  const ContinuouslyYieldingLaw law = yielding();
+  auto walk                         = closed(law, -pressure);
+  walk.slide(-pressure, 2e-4, 200);
+  const double tau = walk.point.shear_traction;
+  ASSERT_GT(tau, 0.6 * bound(law, walk.point));
+  ASSERT_LT(tau, 0.9 * bound(law, walk.point));
+
+  // At rest, by a law that still bears it, and by one that does not.
+  RockPoint<2> point = walk.point;
+  law.reduced(1.1).update(point, walk.opening, walk.slip);
+  EXPECT_NEAR(point.shear_traction, tau, 1e-9 * tau);
+  const ContinuouslyYieldingLaw weak = law.reduced(2.);
+  const JointDissipation lost = weak.update(point, walk.opening, walk.slip);
+  EXPECT_LT(point.shear_traction, 0.9 * tau);
+  EXPECT_NEAR(point.shear_traction, bound(weak, point), 1e-6 * tau);
+  EXPECT_EQ(point.state, JointState::slipping);
+  EXPECT_GT(lost.friction, 0.);
+  EXPECT_FALSE(weak.holds(walk.point));
+
+  // As the pressure falls to a quarter.
+  walk.go(walk.point.plastic_opening - law.closure.closure(0.25 * pressure),
+          walk.slip, 50);
+  EXPECT_LT(walk.point.shear_traction, 0.9 * tau);
+  EXPECT_NEAR(walk.point.shear_traction, bound(law, walk.point), 1e-6 * tau);
+}

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../base/section_text.h"
+#include "rock_walk.h"
 
 #include <quoin/joint_laws/joint_parameters.h>
 
@@ -124,4 +125,20 @@ TEST(RockLaws, RefusesWhatMakesNoSense)
                  "worn");
   expect_refused(yielding + "set Highest stress = 1e3\n", "Highest stress",
                  "Lowest stress");
+}
+
+// The elastic one, or no load could be put on an unstressed model.
+TEST(RockLaws, TangentOfAJointWithoutPressure)
+{
+  const auto check = [](const auto &law)
+  {
+    RockPoint<2> point;
+    JointTangent<2> tangent;
+    law.update(point, 0., 0., tangent);
+    const auto [kn, ks] = law.stiffness_at(0.);
+    EXPECT_NEAR(tangent.normal_opening, kn, 1e-9 * kn);
+    EXPECT_NEAR(tangent.shear_slip, ks, 1e-9 * ks);
+  };
+  check(rock_test::rough());
+  check(rock_test::yielding());
 }
