@@ -39,8 +39,11 @@ namespace quoin
     std::vector<Blocks> divided;
     for (const Blocks &pair : found)
     {
-      const double inverse
+      double inverse
           = blocks.inverse_mass[pair[0]] + blocks.inverse_mass[pair[1]];
+      if (inverse == 0. && !blocks.own_inverse_mass.empty())
+        inverse = blocks.own_inverse_mass[pair[0]]
+                  + blocks.own_inverse_mass[pair[1]];
       const bool is_divided
           = blocks.is_divided[pair[0]] || blocks.is_divided[pair[1]];
       pairs.push_back(

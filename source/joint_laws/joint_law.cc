@@ -23,8 +23,7 @@ namespace quoin
 
   double slip_of_peak(const JointLaw &law)
   {
-    return std::visit([](const auto &own) { return own.slip_of_peak(); },
-                      law);
+    return std::visit([](const auto &own) { return own.slip_of_peak(); }, law);
   }
 
   bool can_dilate(const JointLaw &law)

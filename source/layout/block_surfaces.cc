@@ -431,9 +431,11 @@ namespace quoin
       groups[blocks.blocks[b].group].push_back(b + 1);
     }
     text << made.text();
-    // Faces that touch are cut along the outlines of both.
-    text << "Geometry.ToleranceBoolean = " << tolerance
-         << ";\nCoherence;\nother() = Volume{:};\nn = #other();\nother() -= {1 "
+    // Faces that touch are cut along the outlines of both; of a single block
+    // there is nothing to cut, which gmsh takes for an error.
+    text << "Geometry.ToleranceBoolean = " << tolerance << ";\n"
+         << (blocks.blocks.size() > 1 ? "Coherence;\n" : "")
+         << "other() = Volume{:};\nn = #other();\nother() -= {1 "
             ": "
          << blocks.blocks.size() << "};\nIf (n != " << blocks.blocks.size()
          << " || #other() > 0)\n"

@@ -241,8 +241,11 @@ namespace quoin
     {
       is_joint_name.assign(data.face_names.size(), false);
       for (const std::string &n : options.joints_along)
-        is_joint_name[index_of(n, data.face_names, "Joints along", face_word)]
-            = true;
+        if (!options.may_lack_joints
+            || std::find(data.face_names.begin(), data.face_names.end(), n)
+                   != data.face_names.end())
+          is_joint_name[index_of(n, data.face_names, "Joints along", face_word)]
+              = true;
 
       const std::size_t n_groups = data.group_names.size();
       is_joint_pair.assign(n_groups * n_groups, options.between_all);

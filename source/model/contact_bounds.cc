@@ -38,11 +38,18 @@ namespace quoin
       for (unsigned int s = 0; s < n_sets; ++s)
         if (acts[b * n_sets + s] && !model.is_held(b))
           meet(s, b, masses[b]);
-    // What is held has those of what is not.
+    // What is held has those of what is not; two that are held have the lighter
+    // one's.
     if (dim == 2 && model.parameters().large_displacements)
       for (unsigned int s = 0; s < n_sets; ++s)
       {
-        double heaviest = 0.;
+        double heaviest = 0., heaviest_held = 0.;
+        for (unsigned int b = 0; b < masses.size(); ++b)
+          if (acts[b * n_sets + s] && model.is_held(b))
+          {
+            heaviest = std::max(heaviest, std::min(heaviest_held, masses[b]));
+            heaviest_held = std::max(heaviest_held, masses[b]);
+          }
         for (unsigned int b = 0; b < masses.size(); ++b)
           heaviest = std::max(heaviest, result[b * n_sets + s]);
         for (unsigned int b = 0; b < masses.size(); ++b)
@@ -57,6 +64,9 @@ namespace quoin
           meet(face.set, a, masses[b]);
         if (model.is_held(b) && !model.is_held(a))
           meet(face.set, b, masses[a]);
+        if (model.is_held(a) && model.is_held(b))
+          for (const unsigned int held : { a, b })
+            meet(face.set, held, std::min(masses[a], masses[b]));
       }
     dealii::Utilities::MPI::max(result, nodes.communicator(), result);
     return result;
@@ -94,6 +104,7 @@ namespace quoin
     dealii::Utilities::MPI::sum(n_ranks, result.communicator, n_ranks);
     for (unsigned int b = 0; b < masses.size(); ++b)
     {
+      result.own_inverse_mass.push_back(1. / masses[b]);
       result.inverse_mass.push_back(model.is_held(b) ? 0. : 1. / masses[b]);
       result.is_divided.push_back(n_ranks[b] > 1);
     }

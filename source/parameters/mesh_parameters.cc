@@ -152,7 +152,10 @@ namespace quoin
                       " m: a larger one makes the time step longer where no "
                       "edge of a block is shorter") };
       if (parameters.split.joints_along.empty())
-        parameters.split.joints_along = geometry.joint_curves;
+      {
+        parameters.split.joints_along    = geometry.joint_curves;
+        parameters.split.may_lack_joints = true;
+      }
       if (parameters.dimension == MeshDimension::two)
         section.fail("Dimension", "must be 3 for the blocks of a .obj, .stl or "
                                   ".3dgrid file: set 'from mesh'.");

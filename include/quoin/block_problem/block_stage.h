@@ -96,7 +96,6 @@ namespace quoin
     /** Number of step reductions of the implicit solver. */
     std::uint64_t cuts = 0;
 
-    double without_bond = 0.; /**< points, see n_without_bond() */
     /** Energy below which residuals may be rounding [J]. */
     double rounding = 0.;
 
@@ -161,7 +160,7 @@ namespace quoin
     /** Warns of motions of joints for which displacements are not small. */
     void warn_of_joint_motion() const;
     /** Warns if joints lost their bond while loads came on; collective. */
-    void warn_of_lost_bond();
+    void warn_of_lost_bond() const;
     /** Records the loads of the row for @p time [s]. */
     void record_loads(double time);
     /** Warns of local damping that has carried a part of the loads. */

@@ -22,6 +22,9 @@ namespace quoin
     /** One by the mass of each block of the mesh [1/kg]; 0: a load holds or
         moves the block. */
     std::vector<double> inverse_mass;
+    /** The same of blocks that are held, too: what counts between two of
+        them, parts of which may move. Empty: as inverse_mass. */
+    std::vector<double> own_inverse_mass;
     /** Whether several ranks have cells of the block. */
     std::vector<bool> is_divided;
     /** P and S wave impedance of each cell group [Pa s/m]; infinite: rigid. */

@@ -100,10 +100,10 @@ namespace quoin
    * where wear has left |tau| above tau_m. The joint dilates by tan(i) dp,
    * i = atan(|tau|/s) - phi, between zero and phi_m0 - phi.
    *
-   * Where tau_m falls other than by wear, with the pressure or as the law is
-   * replaced by a weaker one, |tau| falls with it at once, by plastic slip, to
-   * tau_m, or in proportion if wear had left it above. By the rates alone it
-   * would wait for slip, and a joint at rest would bear more than its strength.
+   * Where the law is replaced by a weaker one, |tau| falls with tan(phi_m) at
+   * once, by plastic slip, to tau_m, or in proportion if it had been above. By
+   * the rates alone it would wait for slip, and a joint at rest would bear more
+   * than its strength.
    *
    * Slip against the traction unloads: it is elastic, F = 1, and beyond zero
    * loading begins with r = 0. Where slip is a vector, these rates are those of
@@ -203,12 +203,10 @@ namespace quoin
                                const Number &strength, const Number &ks,
                                const SlipOf<dim, Number> &slip) const;
 
-    /** tau of @p point as it has fallen with the strength that @p strength_at
-        gives after a worn slip, and which the fall itself wears; see above. */
-    template <int dim, typename Number, typename Strength>
-    SlipOf<dim, Number> lowered(const RockPoint<dim> &point,
-                                const Strength &strength_at,
-                                const Number &ks) const;
+    /** tau of @p point as it has fallen if the law became weaker after the
+        last step, and the plastic slip of that, @p fallen [m]; see above. */
+    template <int dim>
+    Slip<dim> lowered(const RockPoint<dim> &point, double &fallen) const;
 
     /** The size that a shear traction of the size @p tau grows to, loaded by
         the elastic increment @p growth [Pa]. */
@@ -280,29 +278,34 @@ namespace quoin
     return result;
   }
 
-  template <int dim, typename Number, typename Strength>
-  SlipOf<dim, Number>
-  ContinuouslyYieldingLaw::lowered(const RockPoint<dim> &point,
-                                   const Strength &strength_at,
-                                   const Number &ks) const
+  template <int dim>
+  Slip<dim> ContinuouslyYieldingLaw::lowered(const RockPoint<dim> &point,
+                                             double &fallen) const
   {
     constexpr unsigned int most_iterations = 60;
-    constexpr double precision             = 1e-14;
-    const auto tau    = constant_slip<dim, Number>(point.shear_traction);
-    const double size = magnitude(point.shear_traction);
-    const double above
-        = point.strength > 0. ? std::max(1., size / point.strength) : 1.;
-    Number lower = above * strength_at(Number(point.worn_slip));
-    if (!(value_of(lower) < (1. - precision) * size))
-      return tau;
+    constexpr double precision             = 1e-12;
+    fallen                                 = 0.;
+    const double traction                  = -point.normal_traction;
+    const double size                      = magnitude(point.shear_traction);
+    const auto friction
+        = [&](const double after) { return std::tan(bounding_angle(after)); };
+    if (size == 0. || traction <= 0.
+        || !(friction(point.worn_slip) < (1. - precision) * point.friction))
+      return point.shear_traction;
+    const double ks    = shear_stiffness(traction);
+    const double above = std::max(1., size / (traction * point.friction));
+    // The fall itself wears the joint.
+    double lower = size;
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
-      const double before = value_of(lower);
-      lower = above * strength_at(point.worn_slip + (size - lower) / ks);
-      if (before - value_of(lower) <= precision * size)
+      const double next
+          = above * traction * friction(point.worn_slip + (size - lower) / ks);
+      if (next >= (1. - precision) * lower)
         break;
+      lower = next;
     }
-    return Number(lower / size) * tau;
+    fallen = (size - lower) / ks;
+    return lower / size * point.shear_traction;
   }
 
   template <int dim, typename Number>
@@ -318,17 +321,16 @@ namespace quoin
 
     const auto strength_at = [&](const Number &worn)
     { return Number(traction * tan(bounding_angle(worn))); };
-    const auto before = lowered<dim>(point, strength_at, ks);
-    const Number fallen
-        = (magnitude(point.shear_traction) - magnitude(before)) / ks;
+    double fallen     = 0.;
+    const auto before = constant_slip<dim, Number>(lowered<dim>(point, fallen));
     const Number worn = point.worn_slip + fallen;
     // By the wear in the middle of the step.
     const Number first  = load(point, before, strength_at(worn), ks, slip).wear;
     const Number middle = worn + 0.5 * first;
     auto result         = load(point, before, strength_at(middle), ks, slip);
-    result.strength     = strength_at(worn + result.wear);
+    result.friction     = tan(bounding_angle(Number(worn + result.wear)));
     result.wear         = result.wear + fallen;
-    result.slips        = result.slips || value_of(fallen) > 0.;
+    result.slips        = result.slips || fallen > 0.;
     Number angle        = bounding_angle(middle);
     const Number tau    = magnitude(result.shear_traction);
     if (value_of(tau) >= value_of(traction) * std::tan(initial_angle))

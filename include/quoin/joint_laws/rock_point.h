@@ -26,11 +26,11 @@ namespace quoin
     double worn_slip = 0.; /**< sum of |dp| while closed [m] */
     double dilated   = 0.; /**< part of w that reverse slip recovers [m] */
     double reload    = 0.; /**< |tau|/strength where loading began anew [-] */
-    double strength  = 0.; /**< tau_m at the end of the last step [Pa] */
+    double friction  = 0.; /**< tan(phi_m) at the end of the last step [-] */
 
     static constexpr std::array<double RockPoint::*, 4> internal
         = { &RockPoint::worn_slip, &RockPoint::dilated, &RockPoint::reload,
-            &RockPoint::strength };
+            &RockPoint::friction };
   };
 
   /** Shear response of a point with known closure. */
@@ -42,7 +42,7 @@ namespace quoin
     Number opening  = 0.;                 /**< increment of w, dilation [m] */
     Number wear     = 0.;                 /**< increment of worn_slip [m] */
     Number reload   = 0.;                 /**< RockPoint::reload at the end */
-    Number strength = 0.;                 /**< RockPoint::strength at the end */
+    Number friction = 0.;                 /**< RockPoint::friction at the end */
     bool slips      = false;
   };
 
@@ -165,7 +165,7 @@ namespace quoin
     {
       point.plastic_slip = slip;
       point.reload       = 0.;
-      point.strength     = 0.;
+      point.friction     = 0.;
       point.state        = JointState::open;
       return lost;
     }
@@ -174,7 +174,7 @@ namespace quoin
     point.dilated += opened;
     point.worn_slip += step.flow.wear;
     point.reload   = step.flow.reload;
-    point.strength = step.flow.strength;
+    point.friction = step.flow.friction;
     if (step.flow.slips)
       point.state = JointState::slipping;
     else if (point.state != JointState::intact)

@@ -18,6 +18,9 @@ namespace quoin
   {
     /** Physical curves (surfaces) whose edges (faces) are joints. */
     std::vector<std::string> joints_along;
+    /** Whether names of these that the mesh does not have are left out, as of
+        blocks that may not touch. */
+    bool may_lack_joints = false;
 
     /** Pairs of physical surfaces (volumes) whose common edges (faces) are
         joints. */

@@ -17,7 +17,7 @@ TEST(PointText, HasSixDigitsAndMillimetresOfMaps)
   EXPECT_EQ(point_text(dealii::Point<2>(1. / 3., -1e-9)), "(0.333333, -1e-09)");
   EXPECT_EQ(point_text(dealii::Point<3>(512345.6784, 4212345.6, 12.34)),
             "(512345.6784, 4212345.6, 12.34)");
-  EXPECT_EQ(point_text(dealii::Point<2>(
-                std::numeric_limits<double>::quiet_NaN(), 1.)),
+  EXPECT_EQ(point_text(
+                dealii::Point<2>(std::numeric_limits<double>::quiet_NaN(), 1.)),
             "(nan, 1)");
 }

@@ -187,6 +187,17 @@ TEST(Dashpots, AHeldBlockIsInfinitelyHeavy)
               2. * 0.3 * std::sqrt(kn * thickness * 300.) * 0.01, 1e-3);
 }
 
+TEST(Dashpots, BetweenHeldBlocksTheirOwnMassesCount)
+{
+  DashpotBlocks held    = inertia();
+  held.own_inverse_mass = held.inverse_mass;
+  held.inverse_mass     = { 0., 0. };
+  Pressed blocks(true, 2, 0.3, held);
+  blocks.move(0., -1e-5, 0., -0.01);
+  EXPECT_NEAR(blocks.on_upper(blocks.viscous)[1],
+              2. * 0.3 * std::sqrt(kn * thickness * mass) * 0.01, 1e-3);
+}
+
 TEST(Dashpots, AreNoStrongerThanTheImpedanceOfTheBlocks)
 {
   Pressed blocks(true, 2, 0.3, inertia(5e5));

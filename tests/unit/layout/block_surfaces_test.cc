@@ -117,6 +117,26 @@ TEST(BlockSurfaces, ObjOfTwoBoxesThatTouch)
   EXPECT_NEAR(area, 2., 1e-9);
 }
 
+TEST(BlockSurfaces, OneBlockAndBlocksThatDoNotTouch)
+{
+  for (const unsigned int n : { 1U, 2U })
+  {
+    const TestFile file(".obj", obj_box("a", 0., 1)
+                                    + (n == 2 ? obj_box("b", 1.5, 9) : ""));
+    const GmshGeometry geometry
+        = block_geometry(read_block_surfaces(file.name), 0.5);
+    const auto mesh = std::get<MeshData<3>>(mesh_any_gmsh_geometry(
+        geometry.text, file.name, MPI_COMM_SELF, MeshDimension::three));
+    SplitOptions options;
+    options.joints_along    = geometry.joint_curves;
+    options.may_lack_joints = true;
+    BlockMesh<3> split;
+    split_into_blocks(mesh, options, split);
+    EXPECT_EQ(split.n_blocks(), n);
+    EXPECT_TRUE(split.joint_faces.empty());
+  }
+}
+
 TEST(BlockSurfaces, FacesWithHolesAndPlanesOfTriangles)
 {
   // A frame: the box of side 3 with a hole of side 1 through it, in triangles
