@@ -868,8 +868,13 @@ namespace quoin
                       "could follow it down"
                     : "")
             << "; otherwise lower 'First step', raise 'Maximum "
-               "iterations', or look at the strengths of those joints. The "
-               "last equilibrium is kept.";
+               "iterations', or look at the strengths of those joints"
+            << (state.template get<ImplicitState>().released < 1.
+                    ? "; or let the loads come on with the time, as by "
+                      "'min(1, t)': then joints that must slip to mobilise "
+                      "their strength do so in a jump"
+                    : "")
+            << ". The last equilibrium is kept.";
     throw ModelFailure(message.str());
   }
 

@@ -4,7 +4,10 @@
 """A block of weight W on a plane inclined by a, with a bolt that yields at T and
 whose direction from its head has the components -t down the plane and -n off it:
 
-  F = ((W cos a + T n) tan phi + c A)/(W sin a - T t) ."""
+  F = ((W cos a + T n) tan phi + c A)/(W sin a - T t) .
+
+A rough joint without bolt has phi = phi_r + JRC log10(JCS/s) under the mean
+pressure s."""
 import os
 
 import numpy as np
@@ -15,6 +18,8 @@ SLOPE, FRICTION = np.radians(35), np.radians(40)
 YIELD = 3e3
 LENGTH = np.hypot(0.3, 0.7)
 COHESION = 4e3  # over 1 m^2
+# of a Barton-Bandis joint, phi_r, JRC and JCS
+RESIDUAL, ROUGHNESS, WALL = 37., 5., 50e6
 
 
 def factor(force, cohesion=0.):
@@ -23,6 +28,13 @@ def factor(force, cohesion=0.):
             / (WEIGHT * np.sin(SLOPE) - force * 0.3 / LENGTH))
 
 
+def rough():
+    pressure = WEIGHT * np.cos(SLOPE)
+    angle = RESIDUAL + ROUGHNESS * np.log10(WALL / pressure)
+    return np.tan(np.radians(angle)) / np.tan(SLOPE)
+
+
 with open(os.path.join(HERE, "factors.csv"), "w") as stream:
-    stream.write("bolted [-],without [-],cohesive [-]\n%.9g,%.9g,%.9g\n"
-                 % (factor(YIELD), factor(0), factor(YIELD, COHESION)))
+    stream.write("bolted [-],without [-],cohesive [-],rough [-]\n"
+                 "%.9g,%.9g,%.9g,%.9g\n"
+                 % (factor(YIELD), factor(0), factor(YIELD, COHESION), rough()))
