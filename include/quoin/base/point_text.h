@@ -13,8 +13,8 @@
 
 namespace quoin
 {
-  /** "(1, 2)" for a message, with six digits, and three decimals at least where
-      coordinates [m] are larger than that, such as those of maps. */
+  /** "(1, 2)" for a message: coordinates [m] have at least six digits, and
+      large ones, such as those of maps, at least three decimals. */
   template <int dim>
   std::string point_text(const dealii::Tensor<1, dim> &point)
   {

@@ -102,8 +102,8 @@ namespace quoin
     /** Raises #rounding by the loads that act now; collective. */
     void note_rounding();
 
-    /** Residual of the energy balance, by the largest energy throughput or
-        kinetic energy so far [-]. */
+    /** Residual of the energy balance, by the largest energy throughput so
+        far [-]. */
     double energy_residual() const;
   };
 

@@ -29,8 +29,8 @@ namespace quoin
                          const std::vector<JointFaceStress<3>> &face_stress,
                          State<3> &state);
 
-  /** Points, of all ranks, that have lost their bond although they would hold
-      with it now, and those of laws with a bond; see JointLawDefaults. */
+  /** Adds @p share to n[0] if @p point has lost its bond although it would
+      hold with it now, and to n[1] if @p law has one; see JointLawDefaults. */
   template <typename Law, typename Point>
   void count_bond(const Law &law, const Point &point, const double share,
                   std::array<double, 2> &n)
@@ -38,6 +38,7 @@ namespace quoin
     n[0] += law.lost_its_bond(point) ? share : 0.;
     n[1] += law.has_bond() ? share : 0.;
   }
+  /** The numbers of count_bond() over the points of all ranks. */
   std::array<double, 2> n_without_bond(const MatchedJoints &joints,
                                        const JointHistory &history,
                                        MPI_Comm communicator);

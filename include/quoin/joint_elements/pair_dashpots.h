@@ -22,8 +22,9 @@ namespace quoin
     /** One by the mass of each block of the mesh [1/kg]; 0: a load holds or
         moves the block. */
     std::vector<double> inverse_mass;
-    /** The same of blocks that are held, too: what counts between two of
-        them, parts of which may move. Empty: as inverse_mass. */
+    /** One by the mass of each block, held or not [1/kg]. It counts between
+        two blocks that are held, as parts of them may move. Empty: such blocks
+        have no dashpots. */
     std::vector<double> own_inverse_mass;
     /** Whether several ranks have cells of the block. */
     std::vector<bool> is_divided;

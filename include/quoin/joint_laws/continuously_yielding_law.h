@@ -100,10 +100,10 @@ namespace quoin
    * where wear has left |tau| above tau_m. The joint dilates by tan(i) dp,
    * i = atan(|tau|/s) - phi, between zero and phi_m0 - phi.
    *
-   * Where the law is replaced by a weaker one, |tau| falls with tan(phi_m) at
-   * once, by plastic slip, to tau_m, or in proportion if it had been above. By
-   * the rates alone it would wait for slip, and a joint at rest would bear more
-   * than its strength.
+   * Where the law is replaced by a weaker one, |tau| falls to tau_m at once, by
+   * plastic slip. By the rates alone it would wait for slip, and a joint at
+   * rest would bear more than its strength. Where the pressure falls it does
+   * wait.
    *
    * Slip against the traction unloads: it is elastic, F = 1, and beyond zero
    * loading begins with r = 0. Where slip is a vector, these rates are those of
@@ -292,14 +292,13 @@ namespace quoin
     if (size == 0. || traction <= 0.
         || !(friction(point.worn_slip) < (1. - precision) * point.friction))
       return point.shear_traction;
-    const double ks    = shear_stiffness(traction);
-    const double above = std::max(1., size / (traction * point.friction));
+    const double ks = shear_stiffness(traction);
     // The fall itself wears the joint.
     double lower = size;
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
       const double next
-          = above * traction * friction(point.worn_slip + (size - lower) / ks);
+          = traction * friction(point.worn_slip + (size - lower) / ks);
       if (next >= (1. - precision) * lower)
         break;
       lower = next;

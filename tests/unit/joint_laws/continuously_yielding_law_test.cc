@@ -236,4 +236,15 @@ TEST(ContinuouslyYieldingLaw, ShearFallsWithTheStrength)
   EXPECT_EQ(point.state, JointState::slipping);
   EXPECT_GT(lost.friction, 0.);
   EXPECT_FALSE(weak.holds(walk.point));
+
+  // A pressure that fell leaves more than the strength at rest, until that is
+  // reduced.
+  const double low = 0.25 * pressure;
+  walk.go(walk.point.plastic_opening - law.closure.closure(low), walk.slip, 50);
+  EXPECT_FALSE(law.holds(walk.point));
+  point                              = walk.point;
+  const ContinuouslyYieldingLaw less = law.reduced(1.01);
+  less.update(point, walk.opening, walk.slip);
+  EXPECT_NEAR(point.shear_traction,
+              low * std::tan(less.bounding_angle(point.worn_slip)), 1e-6 * tau);
 }

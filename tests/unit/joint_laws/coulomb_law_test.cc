@@ -139,6 +139,23 @@ TEST(CoulombLaw, TensionFailureTakesCohesionToo)
   EXPECT_NEAR(point.shear_traction, -sigma * mu, 1e-9 * cohesion);
 }
 
+TEST(CoulombLaw, KnowsThatABondIsLostWhichWouldHold)
+{
+  const CoulombLaw law = brittle();
+  EXPECT_TRUE(law.has_bond());
+  JointPoint<2> point = fresh();
+  law.update(point, -1e6 / kn, 0.);
+  EXPECT_FALSE(law.lost_its_bond(point)); // intact
+  law.update(point, 2. * ft / kn, 0.);
+  EXPECT_FALSE(law.lost_its_bond(point)); // open
+  law.update(point, -1e6 / kn, 0.);
+  EXPECT_TRUE(law.lost_its_bond(point));
+  CoulombLaw ductile = law;
+  ductile.residual   = ductile.peak;
+  EXPECT_FALSE(ductile.has_bond());
+  EXPECT_FALSE(ductile.lost_its_bond(point));
+}
+
 TEST(CoulombLaw, TensionCutOff)
 {
   const CoulombLaw law = brittle();
