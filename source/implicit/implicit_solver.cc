@@ -253,8 +253,7 @@ namespace quoin
       const StageParameters *previous, State<dim> &state)
   {
     ImplicitState &now = state.template get<ImplicitState>();
-    now.released       = 1.;
-    now.step           = own_steps.first_load_step();
+    own_steps.begin_loads(now);
     if constexpr (dim == 2)
       if (all.far.elastostatic_acts
           && !state.template get<StaticFarFieldState>().active)
@@ -276,8 +275,7 @@ namespace quoin
                              broken, balance);
     if (balance.ratio() <= parameters.force_ratio)
       return;
-    now.released               = 0.;
-    now.step                   = parameters.first_step;
+    own_steps.begin_release(now);
     const unsigned int n_owned = model.nodes().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -718,7 +716,7 @@ namespace quoin
     // Near an equilibrium: test whether it is one without drag.
     equilibrium->set_drag(0.);
     Configuration<dim> configuration;
-    const StepTarget target{ now.jump_time, 1., 0. };
+    const StepTarget target{ now.jump_time, now.jump_released, 0. };
     if (solve(state, target, configuration) == Outcome::failed)
       return;
     // An equilibrium far ahead is none that the model comes to; whether it
@@ -730,7 +728,7 @@ namespace quoin
     if (largest_move(state.nodes, configuration.nodes) > near)
       return;
     commit(configuration, state);
-    own_steps.end_jump(now);
+    own_steps.end_jump(last_equilibrium.template get<ImplicitState>(), now);
     done.jumps.push_back(
         { now.jump_time, now.n_drag,
           dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
@@ -869,11 +867,6 @@ namespace quoin
                     : "")
             << "; otherwise lower 'First step', raise 'Maximum "
                "iterations', or look at the strengths of those joints"
-            << (state.template get<ImplicitState>().released < 1.
-                    ? "; or let the loads come on with the time, as by "
-                      "'min(1, t)': then joints that must slip to mobilise "
-                      "their strength do so in a jump"
-                    : "")
             << ". The last equilibrium is kept.";
     throw ModelFailure(message.str());
   }

@@ -42,12 +42,26 @@ namespace quoin
     searches_factor = safety;
   }
 
+  void ImplicitSteps::begin_release(ImplicitState &now) const
+  {
+    now.released  = 0.;
+    now.step      = parameters.first_step;
+    now.last_step = now.step;
+  }
+
+  void ImplicitSteps::begin_loads(ImplicitState &now) const
+  {
+    now.released  = 1.;
+    now.step      = first_load_step();
+    now.last_step = 0.;
+  }
+
   template <int dim>
   StepTarget ImplicitSteps::target(const State<dim> &state) const
   {
     const ImplicitState &now = state.template get<ImplicitState>();
     if (now.jumps)
-      return { now.jump_time, 1., 0. };
+      return { now.jump_time, now.jump_released, 0. };
     if (now.released < 1.)
     {
       const double next = now.released + now.step;
@@ -72,21 +86,24 @@ namespace quoin
   {
     ImplicitState &now = state.template get<ImplicitState>();
     // A search for the factor of safety asks whether the model keeps moving.
-    if (!searches_factor && (!parameters.jumps || now.released < 1.))
+    if (!searches_factor && !parameters.jumps)
       return false;
-    now.follows_path = false;
-    now.jumps        = true;
-    now.moved_for    = 0.;
-    now.n_drag       = 0;
-    now.drag_time    = 0.;
-    now.drag_path    = 0.;
-    now.jump_loss    = 0.;
-    now.drag_step    = first_drag_step;
-    now.jump_time    = std::min(
-           stage_end, state.load_time
-                          + std::max({ now.step, jump_share * now.last_step,
-                                       2. * parameters.smallest_step })
-                                * stage_end);
+    now.follows_path   = false;
+    now.jumps          = true;
+    now.moved_for      = 0.;
+    now.n_drag         = 0;
+    now.drag_time      = 0.;
+    now.drag_path      = 0.;
+    now.jump_loss      = 0.;
+    now.drag_step      = first_drag_step;
+    now.jump_time      = state.load_time;
+    now.jump_released  = 1.;
+    const double share = std::max({ now.step, jump_share * now.last_step,
+                                    2. * parameters.smallest_step });
+    if (now.released < 1. && !searches_factor)
+      now.jump_released = std::min(1., now.released + share);
+    else
+      now.jump_time = std::min(stage_end, now.jump_time + share * stage_end);
     return true;
   }
 
@@ -103,11 +120,20 @@ namespace quoin
     return jump.n_drag <= short_way;
   }
 
-  void ImplicitSteps::end_jump(ImplicitState &now) const
+  void ImplicitSteps::end_jump(const ImplicitState &before,
+                               ImplicitState &now) const
   {
     now.jumps     = false;
     now.moved_for = 0.;
     now.path_step = 0.;
+    if (before.released < 1.)
+    {
+      now.last_step = now.released - before.released;
+      now.step      = now.last_step;
+      if (now.released == 1.)
+        begin_loads(now);
+      return;
+    }
     // After a short jump the equilibrium is the next one on the same path.
     const double next
         = now.last_step * (is_short(now) ? most_growth : jump_share);
@@ -195,10 +221,11 @@ namespace quoin
                                           / std::max(1U, n_iterations)));
     if (before.template get<ImplicitState>().released < 1.)
     {
-      now.step = std::min(growth * std::max(went, now.step),
-                          parameters.largest_step);
+      now.last_step = went;
+      now.step      = std::min(growth * std::max(went, now.step),
+                               parameters.largest_step);
       if (now.released == 1.)
-        now.step = first_load_step();
+        begin_loads(now);
       return;
     }
     now.path_length += path;

@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
+#include <quoin/base/number_text.h>
 #include <quoin/loading/run_loads.h>
 #include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/joint_crack.h>
@@ -45,6 +46,45 @@ namespace quoin
           "section 'Loads/" + load.name
           + "': 'Pressure = uplift' is known in two dimensions "
             "alone. Give the pressure as a function of the place.");
+    }
+
+    void refuse_leaving_waves(const Model<2> &,
+                              const std::vector<LoadParameters> &)
+    {
+    }
+
+    /** Refuses plane waves that enter the model through no face of the
+        boundaries that pass waves in the same direction. */
+    void refuse_leaving_waves(const Model<3> &model,
+                              const std::vector<LoadParameters> &loads)
+    {
+      const auto enters
+          = [&](const LoadParameters &load, const dealii::Tensor<1, 3> &d)
+      {
+        for (const BoundaryFace<3> &face :
+             faces_of_curves(model.nodes(), load.boundaries, load.name))
+          if (const auto outward = outward_area(face.points);
+              d * outward < -1e-9 * outward.norm() * d.norm())
+            return true;
+        return false;
+      };
+      for (const LoadParameters &load : loads)
+        // Waves that a free surface reflects enter, too.
+        if (load.wave_direction && !load.free_surface
+            && std::none_of(loads.begin(), loads.end(),
+                            [&](const LoadParameters &other)
+                            {
+                              return other.wave_direction
+                                     && enters(other, *load.wave_direction);
+                            }))
+        {
+          const auto &d = *load.wave_direction;
+          throw InputError(text_of(
+              "section 'Loads/", load.name, "': 'Incident direction = ", d[0],
+              ", ", d[1], ", ", d[2],
+              "' leads into the model through no face of 'Boundary', so that "
+              "the wave would bring nothing. Point it into the model."));
+        }
     }
 
     /** Refuses free fields with common nodes, where one alone would act. */
@@ -114,6 +154,7 @@ namespace quoin
       }
     }
     add_free_fields(model, loads);
+    refuse_leaving_waves(model, loads);
   }
 
   template <>

@@ -38,12 +38,13 @@ namespace quoin
     unsigned int ahead = 0;     /**< path steps with a new farthest load time */
 
     /** Whether the state is in a jump to another equilibrium. */
-    bool jumps          = false;
-    double jump_time    = 0.; /**< load time of the jump [s] */
-    double drag_step    = 0.; /**< next step of pseudo-time [-] */
-    double drag_time    = 0.; /**< pseudo-time of the jump so far [-] */
-    double drag_path    = 0.; /**< path's length in the jump so far [m] */
-    unsigned int n_drag = 0;  /**< steps of the jump so far */
+    bool jumps           = false;
+    double jump_time     = 0.; /**< load time of the jump [s] */
+    double jump_released = 1.; /**< share of the held forces that it releases */
+    double drag_step     = 0.; /**< next step of pseudo-time [-] */
+    double drag_time     = 0.; /**< pseudo-time of the jump so far [-] */
+    double drag_path     = 0.; /**< path's length in the jump so far [m] */
+    unsigned int n_drag  = 0;  /**< steps of the jump so far */
     double jump_loss = 0.; /**< dissipated by drag since the jump began [J] */
     /** Archived State of the equilibrium before a jump, in checkpoints within
      * it. */
@@ -60,8 +61,8 @@ namespace quoin
       visitor.own(moved_blocks, 3, RigidBlockStates::slice_name);
       visitor.same(dim, moved_for, released, step, last_step, follows_path,
                    path_step, path_length, farthest, ahead, jumps, jump_time,
-                   drag_step, drag_time, drag_path, n_drag, jump_loss,
-                   before_jump);
+                   jump_released, drag_step, drag_time, drag_path, n_drag,
+                   jump_loss, before_jump);
     }
 
     template <typename Archive>

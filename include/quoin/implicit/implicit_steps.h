@@ -40,11 +40,10 @@ namespace quoin
     {
       return stage_end;
     }
-    /** First load step, share of the stage; constant loads take one step. */
-    double first_load_step() const
-    {
-      return rests ? 1. : parameters.first_step;
-    }
+    /** Makes the next step the first of the release of held forces. */
+    void begin_release(ImplicitState &now) const;
+    /** Makes the next step the first of the loads; constant loads take one. */
+    void begin_loads(ImplicitState &now) const;
     /** Least number of steps of the stage, if none is cut. */
     double least_steps() const
     {
@@ -80,13 +79,19 @@ namespace quoin
     /** As adapt(), within a jump. */
     void adapt_jump(unsigned int n_iterations, double path,
                     ImplicitState &now) const;
-    void end_jump(ImplicitState &now) const;
+    /** Chooses the step after a jump from the equilibrium @p before. */
+    void end_jump(const ImplicitState &before, ImplicitState &now) const;
     /** Whether the next equilibrium is the next one on the same path. */
     bool is_short(const ImplicitState &jump) const;
     /** Largest path increment in the next step of a jump [m]. */
     double most_jump_path(const ImplicitState &now) const;
 
   private:
+    /** First load step, share of the stage. */
+    double first_load_step() const
+    {
+      return rests ? 1. : parameters.first_step;
+    }
     /** Longest step for the error that a prediction had in a step that went so
         far, shares of the stage. */
     double longest_step(double went, double error) const;

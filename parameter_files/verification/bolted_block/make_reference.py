@@ -18,8 +18,8 @@ SLOPE, FRICTION = np.radians(35), np.radians(40)
 YIELD = 3e3
 LENGTH = np.hypot(0.3, 0.7)
 COHESION = 4e3  # over 1 m^2
-# of a Barton-Bandis joint, phi_r, JRC and JCS
-RESIDUAL, ROUGHNESS, WALL = 37., 5., 50e6
+# of a Barton-Bandis joint, JRC and JCS
+ROUGHNESS, WALL = 5., 50e6
 
 
 def factor(force, cohesion=0.):
@@ -28,13 +28,14 @@ def factor(force, cohesion=0.):
             / (WEIGHT * np.sin(SLOPE) - force * 0.3 / LENGTH))
 
 
-def rough():
+def rough(residual):
     pressure = WEIGHT * np.cos(SLOPE)
-    angle = RESIDUAL + ROUGHNESS * np.log10(WALL / pressure)
+    angle = residual + ROUGHNESS * np.log10(WALL / pressure)
     return np.tan(np.radians(angle)) / np.tan(SLOPE)
 
 
 with open(os.path.join(HERE, "factors.csv"), "w") as stream:
-    stream.write("bolted [-],without [-],cohesive [-],rough [-]\n"
-                 "%.9g,%.9g,%.9g,%.9g\n"
-                 % (factor(YIELD), factor(0), factor(YIELD, COHESION), rough()))
+    stream.write("bolted [-],without [-],cohesive [-],rough [-],smooth [-]\n"
+                 "%.9g,%.9g,%.9g,%.9g,%.9g\n"
+                 % (factor(YIELD), factor(0), factor(YIELD, COHESION),
+                    rough(37.), rough(30.)))
