@@ -396,17 +396,26 @@ namespace quoin
       dealii::Point<dim> position; /**< position of that cell [m] */
     };
 
-    /** Cell size of each material; blocks absent in @p state do not count. */
+    /** Cell size of each material; blocks absent in @p state do not count, nor
+        do those that platens hold as a whole. */
     template <int dim>
     std::vector<CellSize<dim>> cell_sizes(const Model<dim> &model,
                                           const State<dim> &state,
-                                          const std::size_t n_materials)
+                                          const StageOfRun &run)
     {
-      const NodeMap<dim> &nodes = model.nodes();
+      const NodeMap<dim> &nodes     = model.nodes();
+      const std::size_t n_materials = run.parameters.model.materials.size();
+      std::vector<bool> is_platen(nodes.table().group_names.size(), false);
+      for (const LoadParameters *load : run.loads)
+        for (unsigned int g = 0; g < is_platen.size(); ++g)
+          if (load->type == LoadType::platen
+              && is_among(nodes.table().group_names[g], load->groups))
+            is_platen[g] = true;
       std::vector<CellSize<dim>> sizes(n_materials);
       for (unsigned int c = 0; c < model.nodes().cells().n_deformable; ++c)
       {
-        if (state.is_absent(nodes.blocks().block_of_cell(c)))
+        if (state.is_absent(nodes.blocks().block_of_cell(c))
+            || is_platen[nodes.cells().group[c]])
           continue;
         const auto &cell = nodes.cells().nodes[c];
         std::vector<double> edges;
@@ -594,8 +603,7 @@ namespace quoin
     check_moving_water(run, checks);
     check_weight(run, checks);
     check_units(run, model.nodes().table().diagonal(), time_step, checks);
-    const auto sizes
-        = cell_sizes(model, state, parameters.model.materials.size());
+    const auto sizes = cell_sizes(model, state, run);
     double rise = 0., passage = 0.;
     for (unsigned int m = 0; m < sizes.size(); ++m)
       if (sizes[m].edge > 0.)

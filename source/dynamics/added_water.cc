@@ -16,15 +16,9 @@ namespace quoin
     : model(model)
   {
     for (const LoadParameters &load : loads)
-      if (load.has_added_mass)
-      {
-        if constexpr (dim == 2)
+      if constexpr (dim == 2)
+        if (load.has_added_mass)
           reservoirs.emplace_back(load, model.nodes(), model.thickness());
-        else
-          throw InputError("section 'Loads/" + load.name
-                           + "': 'Added mass' is known in two dimensions "
-                             "alone. Set it to 'none'.");
-      }
   }
 
   template <int dim>

@@ -218,8 +218,12 @@ namespace quoin
   {
     this->activate(resumed, state);
     if constexpr (dim == 2)
+    {
       if (all.water)
         all.water->resume_stage(state);
+      if (all.beams)
+        all.beams->resume_stage(state);
+    }
     this->ramp_gravity(previous, 0.);
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->set_mass(model.mass());

@@ -22,10 +22,11 @@ namespace quoin
     /** Pseudo-time steps of a jump: drag is a typical stiffness over these. */
     constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
     constexpr double drag_growth = 2., drag_cut = 0.2;
-    /** Path increment in a step of a jump, by the largest path step or, where a
-        search for the factor of safety asks whether the model goes on moving,
-        by the path of the jump so far. */
-    constexpr double most_flow = 1., safety_flow = 0.2;
+    /** Path increment in a step of a jump, by the largest path step or, if that
+        is more, by the path of the jump so far, as of cracks that open wide;
+        where a search for the factor of safety asks whether the model goes on
+        moving. */
+    constexpr double most_flow = 1., long_flow = 0.02, safety_flow = 0.2;
     /** Load step after a jump, by the last one. */
     constexpr double jump_share = 0.3;
     /** Number of steps of a short jump. */
@@ -77,8 +78,9 @@ namespace quoin
 
   double ImplicitSteps::most_jump_path(const ImplicitState &now) const
   {
-    const double most = most_flow * parameters.largest_path_step;
-    return searches_factor ? std::max(most, safety_flow * now.drag_path) : most;
+    return std::max(most_flow * parameters.largest_path_step,
+                    (searches_factor ? safety_flow : long_flow)
+                        * now.drag_path);
   }
 
   template <int dim>
@@ -102,8 +104,10 @@ namespace quoin
                                     2. * parameters.smallest_step });
     if (now.released < 1. && !searches_factor)
       now.jump_released = std::min(1., now.released + share);
-    else
-      now.jump_time = std::min(stage_end, now.jump_time + share * stage_end);
+    else // loads that rest are there all at once
+      now.jump_time
+          = rests ? stage_end
+                  : std::min(stage_end, now.jump_time + share * stage_end);
     return true;
   }
 

@@ -9,6 +9,7 @@
 
 #include "dashpot_forces.h"
 #include "face_group_forces.h"
+#include "joint_energy.h"
 #include "joint_sets.h"
 #include <quoin/joint_elements/joint_points.h>
 
@@ -118,24 +119,8 @@ namespace quoin
                                         EnergyAccounts &energies) const
   {
     const JointHistory &history = state.get<JointHistory>();
-    double energy               = 0.;
-    for (unsigned int i = 0; i < all_segments.size(); ++i)
-    {
-      if (history.handed_over[i])
-        continue;
-      const JointSegment &segment = all_segments[i];
-      const auto gap              = joint_gaps(segment, state.nodes.data());
-      std::visit(
-          [&](const auto &law)
-          {
-            for (unsigned int k = 0; k < 2; ++k)
-              energy += segment.area[k] * segment.share
-                        * law.stored_energy(read_point(law, history, 2 * i + k),
-                                            gap[k][0]);
-          },
-          all_laws[segment.set]);
-    }
-    energies.joint += energy;
+    energies.joint += stored_energy(all_segments, all_laws, history,
+                                    history.handed_over, state.nodes.data());
   }
 
   void MatchedJoints::set_laws(const std::vector<JointSetParameters> &sets)

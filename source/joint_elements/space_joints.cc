@@ -10,6 +10,7 @@
 
 #include "dashpot_forces.h"
 #include "face_group_forces.h"
+#include "joint_energy.h"
 #include "joint_sets.h"
 
 namespace quoin
@@ -184,24 +185,8 @@ namespace quoin
                                       EnergyAccounts &energies) const
   {
     const SpaceJointHistory &history = state.get<SpaceJointHistory>();
-    double energy                    = 0.;
-    for (unsigned int i = 0; i < all_faces.size(); ++i)
-    {
-      if (history.detached[i])
-        continue;
-      const SpaceJointFace &face = all_faces[i];
-      const auto gaps            = joint_gaps(face, state.nodes.data());
-      std::visit(
-          [&](const auto &law)
-          {
-            for (unsigned int k = 0; k < 3; ++k)
-              energy += face.area * face.share
-                        * law.stored_energy(read_point(law, history, 3 * i + k),
-                                            gaps[k][0]);
-          },
-          all_laws[face.set]);
-    }
-    energies.joint += energy;
+    energies.joint += stored_energy(all_faces, all_laws, history,
+                                    history.detached, state.nodes.data());
   }
 
   void SpaceJoints::add_stiffness_bound(

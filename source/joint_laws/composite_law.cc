@@ -310,7 +310,9 @@ namespace quoin
                      "coefficient Cnn of the normal traction in the cap", "-");
     entries.nonnegative(
         "Cap offset", law.cap.offset,
-        "coefficient Cn of the cap, whose centre is at -Cn/(2 Cnn)", "Pa");
+        "coefficient Cn of the cap, whose centre is at -Cn/(2 Cnn); not "
+        "negative",
+        "Pa");
     return law;
   }
 

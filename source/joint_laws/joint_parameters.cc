@@ -56,7 +56,8 @@ namespace quoin
       entries.list("Curves", set.curves,
                    "Physical curves of the mesh, in three dimensions surfaces, "
                    "whose joints form this set; "
-                   "empty: the curve that bears the set's name; 'unnamed': "
+                   "empty: the curve that bears the set's name, but none with "
+                   "'New contacts between'; 'unnamed': "
                    "joints on no named curve; 'none': no joint at the start "
                    "of the run, for sets that only stages assign.");
       entries.pairs("New contacts between", set.new_contacts,

@@ -302,7 +302,8 @@ namespace quoin
                                                           / wall.element_size);
       if (wall.structured && wall.bond == WallBond::random)
         section.fail("Elements", "must be 'free' with 'Bond = random', whose "
-                                 "joints lie at any distance.");
+                                 "joints lie at any distance, in two "
+                                 "dimensions alone.");
     }
   } // namespace
 

@@ -213,6 +213,10 @@ namespace quoin
         section.fail("Thickness", "must be positive for a wall in three "
                                   "dimensions, 'Dimension = 3' in section "
                                   "'Mesh'.");
+      if (wall.bond == WallBond::random)
+        section.fail("Bond", "must not be 'random' in three dimensions, where "
+                             "joints lie at regular distances. Take another "
+                             "bond.");
       if (!wall.structured)
         section.fail("Elements", "must be 'structured' in three dimensions.");
       const bool has_headers = wall.bond == WallBond::header

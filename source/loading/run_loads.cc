@@ -72,8 +72,7 @@ namespace quoin
         // Waves that a free surface reflects enter, too.
         if (load.wave_direction && !load.free_surface
             && std::none_of(loads.begin(), loads.end(),
-                            [&](const LoadParameters &other)
-                            {
+                            [&](const LoadParameters &other) {
                               return other.wave_direction
                                      && enters(other, *load.wave_direction);
                             }))
@@ -123,6 +122,10 @@ namespace quoin
     for (const LoadParameters &load : loads)
     {
       names.push_back(load.name);
+      if (load.has_added_mass && dim == 3)
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Added mass' is known in two dimensions alone. "
+                           "Set it to 'none'.");
       if (load.has_added_mass)
         with_added_mass.push_back(load.name);
       switch (load.type)

@@ -206,7 +206,8 @@ namespace quoin
     for (const BoundaryFace<dim> &face : faces)
     {
       const dealii::Tensor<1, dim> outward
-          = thickness[face.group] * outward_area(face.points);
+          = thickness.common(face.group, face.across)
+            * outward_area(face.points);
       for (unsigned int k = 0; k < dim; ++k)
         if (node_map.exchange().owns(face.nodes[k]))
         {

@@ -206,7 +206,8 @@ namespace quoin
           node_list.push_back(slot->first);
         face.slots[k] = slot->second;
       }
-      face.outward = thickness[given.group] * outward_area(given.points);
+      face.outward = thickness.common(given.group, given.across)
+                     * outward_area(given.points);
       if (is_here)
         faces.push_back(face);
     }

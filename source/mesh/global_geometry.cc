@@ -19,7 +19,8 @@ namespace quoin
   {
     std::vector<BoundaryFace<dim>> own;
     const auto add = [&](const std::array<unsigned int, dim> &face_nodes,
-                         const unsigned int cell, const unsigned int name)
+                         const unsigned int cell, const unsigned int across,
+                         const unsigned int name)
     {
       BoundaryFace<dim> result;
       for (unsigned int k = 0; k < dim; ++k)
@@ -28,27 +29,28 @@ namespace quoin
         result.points[k] = nodes.point(face_nodes[k]);
         result.shares[k] = face_share(nodes, face_nodes[k]);
       }
-      result.group = nodes.cells().group[cell];
-      result.block = nodes.blocks().block_of_cell(cell);
-      result.name  = name;
+      result.group  = nodes.cells().group[cell];
+      result.across = across;
+      result.block  = nodes.blocks().block_of_cell(cell);
+      result.name   = name;
       own.push_back(result);
     };
     for (const OuterFace<dim> &face : nodes.faces().outer)
       if (wanted[face.name])
-        add(face.nodes, face.cell, face.name);
+        add(face.nodes, face.cell, nodes.cells().group[face.cell], face.name);
     if (with_joints)
       for (const JointNodes<dim> &joint : nodes.faces().joints)
       {
         if (!wanted[joint.name])
           continue;
         if (joint.is_own[0])
-          add(joint.lower, joint.cells[0], joint.name);
+          add(joint.lower, joint.cells[0], joint.groups[1], joint.name);
         if (joint.is_own[1])
         {
           // The normal points out of the lower side: the other way round.
           std::array<unsigned int, dim> upper = joint.upper;
           std::swap(upper[0], upper[1]);
-          add(upper, joint.cells[1], joint.name);
+          add(upper, joint.cells[1], joint.groups[0], joint.name);
         }
       }
     std::vector<BoundaryFace<dim>> all;

@@ -3,6 +3,7 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/finite_numbers.h>
+#include <quoin/base/known_names.h>
 #include <quoin/base/number_text.h>
 #include <quoin/parameters/plausibility.h>
 
@@ -178,17 +179,31 @@ namespace quoin
       return times;
     }
 
-    /** Whether @p load is a weight that acts upwards all the time. */
-    bool acts_upwards(const LoadParameters &load)
+    /** Whether all weights of the run together act upwards all the time; those
+        of load patterns have any direction. */
+    bool weight_acts_upwards(const Parameters &parameters)
     {
-      const LoadComponent &vertical = load.components[1];
-      const double times[]          = { 0., 0.37, 41., late_time };
-      return load.type == LoadType::gravity
-             && vertical.quantity != LoadQuantity::free
-             && std::all_of(std::begin(times), std::end(times),
-                            [&](const double t) {
-                              return vertical.value({ t, t }) > 0.;
-                            });
+      std::vector<const LoadComponent *> parts;
+      for (const LoadParameters &load : parameters.loads)
+      {
+        const bool is_pattern = std::any_of(
+            parameters.stages.begin(), parameters.stages.end(),
+            [&](const StageParameters &stage) {
+              return stage.pattern && is_among(load.name, stage.pattern->loads);
+            });
+        if (load.type == LoadType::gravity && !is_pattern
+            && load.components[1].quantity != LoadQuantity::free)
+          parts.push_back(&load.components[1]);
+      }
+      const double times[] = { 0., 0.37, 41., late_time };
+      return std::all_of(std::begin(times), std::end(times),
+                         [&](const double t)
+                         {
+                           double sum = 0.;
+                           for (const LoadComponent *part : parts)
+                             sum += part->value({ t, t });
+                           return sum > 0.;
+                         });
     }
   } // namespace
 
@@ -252,11 +267,12 @@ namespace quoin
       if (load.type == LoadType::initial_stress)
         check(ParameterSection(ParameterSection(top, "Loads"), load.name),
               "load " + load.name + ": ", unit_weight, warnings);
-      if (acts_upwards(load))
-        warnings.push_back("load " + load.name
-                           + ": gravity acts upwards. Give 'Vertical' a minus "
-                             "sign, such as -9.81, unless that is meant.");
     }
+    if (weight_acts_upwards(parameters))
+      warnings.push_back(
+          "gravity acts upwards. Give 'Vertical' of the loads of "
+          "the type 'gravity' a minus sign, such as -9.81, "
+          "unless that is meant.");
     return warnings;
   }
 } // namespace quoin

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/results/history_parameters.h>
 
@@ -312,10 +313,17 @@ namespace quoin
   {
     const std::string where = "section 'Histories/" + name + "': ";
     if (dimension != 0 && dimension != dim)
+    {
+      std::vector<std::string> known;
+      for (const auto &[name, kind] : kinds())
+        if (kind.dimension == 0 || kind.dimension == dim)
+          known.push_back(name);
       throw InputError(where + "'Quantity = " + word + "' is one of models in "
                        + (dim == 2 ? "three dimensions, and this one has two"
                                    : "two dimensions, and this one has three")
-                       + ". Name another quantity.");
+                       + ". Name another quantity, of: "
+                       + known_names_like(word, known) + ".");
+    }
     const bool has_point = quantity == HistoryQuantity::displacement
                            || quantity == HistoryQuantity::velocity
                            || is_of_two_points()

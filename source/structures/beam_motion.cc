@@ -140,7 +140,11 @@ namespace quoin
   BeamMotion::stiffness_bound(const State<2> &state) const
   {
     constexpr unsigned int dim = 2;
-    const BeamState &now       = state.get<BeamState>();
+    // Of the shape at rest, so that a resumed run has the step of the whole
+    // one.
+    BeamState now = state.get<BeamState>();
+    for (NodeRecord<dim> &node : now.nodes)
+      node.u = dealii::Tensor<1, dim>();
     std::vector<NodeStiffness<dim>> result(mass.size(), NodeStiffness<dim>{});
     for (unsigned int b = 0; b < beams.all().size(); ++b)
     {

@@ -62,8 +62,8 @@ namespace quoin
       entries.nonnegative("Second moment", beam.second_moment,
                           "Second moment of area of the section [m^4]");
       entries.positive("Density", beam.density,
-                       "Density: gravity that acts on all blocks acts on the "
-                       "beam as well [kg/m^3]");
+                       "Density, which must be given: gravity that acts on "
+                       "all blocks acts on the beam as well [kg/m^3]");
       entries.nonnegative("Depth", beam.depth,
                           "Depth of the section from one outer fibre to the "
                           "other, symmetric; 0: that of a rectangle with its "

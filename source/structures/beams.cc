@@ -115,8 +115,14 @@ namespace quoin
         interface.attach(line, state);
         now.placed[b] = 1;
       }
-      line.find_rest(now);
     }
+    resume_stage(state);
+  }
+
+  void Beams::resume_stage(const State<2> &state)
+  {
+    for (auto &[line, interface] : beams)
+      line.find_rest(state.get<BeamState>());
   }
 
   void Beams::set_gravity(const std::vector<const NodalLoad<2> *> &loads)

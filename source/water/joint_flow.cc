@@ -360,8 +360,11 @@ namespace quoin
   void JointFlow::update(const StepContext &step, State<2> &state)
   {
     JointFlowState &water = state.get<JointFlowState>();
-    const bool is_due     = given.flow == FlowKind::transient
-                        || state.stage_step % given.interval == 0;
+    const double dt       = step.begin.total - water.time;
+    // The first step of a stage begins with what begin_stage() has found.
+    const bool is_due = given.flow == FlowKind::transient
+                            ? dt > 0.
+                            : state.stage_step % given.interval == 0;
     if (!is_due)
     {
       // The state may be another one than in the last step.
@@ -377,7 +380,6 @@ namespace quoin
     set_apertures(state.nodes.data());
     // Explicit steps follow the stiffness of the water themselves.
     std::fill(compliance.begin(), compliance.end(), 0.);
-    const double dt = step.begin.total - before.time;
     take(solve(step.begin, dt, before), step.begin.total, dt, before);
     water = now;
   }

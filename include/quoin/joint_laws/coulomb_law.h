@@ -180,13 +180,20 @@ namespace quoin
     JointDissipation update_failing(JointPoint<dim> &point, double opening,
                                     const Slip<dim> &slip) const;
 
+    /** That of open points that bear a residual tension does. */
+    template <int dim>
+    bool stores_by_opening(const JointPoint<dim> &point) const
+    {
+      return point.state == JointState::open && residual.tension > 0.;
+    }
+
     /** Recoverable energy per area [J/m^2] of @p point at @p opening [m]. */
     template <int dim>
     double stored_energy(const JointPoint<dim> &point,
                          const double opening) const
     {
       const double normal
-          = point.state == JointState::open
+          = stores_by_opening(point)
                 ? normal_energy(normal_stiffness
                                 * (opening - point.plastic_opening))
                 : 0.5 * point.normal_traction * point.normal_traction

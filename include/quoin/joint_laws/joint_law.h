@@ -35,7 +35,8 @@ namespace quoin
    *   or is open, and update_failing() for the rest, which returns what it
    *   dissipated; update(point, opening, slip, tangent), both with the
    *   consistent tangent; update_waiting() and excess() if it is_brittle;
-   * - stored_energy(point, opening), carried_energy(before, after),
+   * - stored_energy(point, opening), for any opening unless
+   *   stores_by_opening(point), carried_energy(before, after),
    *   stiffness_at(sigma) and largest_stiffness().
    *
    * Operators visit the variant once for a set, or for a point where no time

@@ -192,6 +192,12 @@ namespace quoin
     {
       return false;
     }
+    /** Whether stored_energy() of @p point depends on its opening. */
+    template <typename Point>
+    bool stores_by_opening(const Point &) const
+    {
+      return false;
+    }
     /** Slip [m] that mobilises the peak strength, beside the elastic one. */
     double slip_of_peak() const
     {

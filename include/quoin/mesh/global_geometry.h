@@ -22,13 +22,14 @@ namespace quoin
     std::array<dealii::Point<dim>, dim> points;
     std::array<double, dim> shares; /**< face_share() of the nodes */
     unsigned int group;             /**< group of the adjacent cell */
+    unsigned int across;            /**< that across the joint, or the same */
     unsigned int block;             /**< block of the adjacent cell */
     unsigned int name;              /**< index into BlockTable::face_names */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &nodes &points &shares &group &block &name;
+      archive &nodes &points &shares &group &across &block &name;
     }
   };
 

@@ -36,9 +36,11 @@ namespace quoin
     }
     void prepare(State<2> &state) const override;
 
-    /** Places the beams of the stage @p name, that begins or goes on. Throws an
+    /** Places the beams of the stage @p name, that begins. Throws an
         InputError. Collective. */
     void begin_stage(const std::string &name, State<2> &state);
+    /** Takes the shapes at rest from @p state, in which beams are placed. */
+    void resume_stage(const State<2> &state);
 
     /** Takes from @p loads of the stage the gravity that acts everywhere. */
     void set_gravity(const std::vector<const NodalLoad<2> *> &loads);
