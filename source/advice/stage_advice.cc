@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
 #include <quoin/advice/contact_advice.h>
+#include <quoin/loads/nodal_load.h>
 
 #include <algorithm>
 #include <array>
@@ -563,6 +565,84 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    const std::vector<JointSegment> &faces_of(const MatchedJoints &joints)
+    {
+      return joints.segments();
+    }
+    const std::vector<SpaceJointFace> &faces_of(const SpaceJoints &joints)
+    {
+      return joints.faces();
+    }
+
+    /** A joint at the side of a model, by what it does to a wave. */
+    template <int dim>
+    struct SideJoint
+    {
+      double delay = 0.; /**< pi f Z/k: half the phase that waves lose [-] */
+      unsigned int set;
+      dealii::Point<dim> position;
+    };
+
+    /** Warns of joints that meet free fields, whose ground has none. */
+    template <int dim>
+    void check_joints_at_sides(const Model<dim> &model, const StageOfRun &run,
+                               Checks &checks)
+    {
+      /** Least SideJoint::delay, of 3 degrees. */
+      constexpr double least_delay = 0.025;
+      if (!run.stage.is_dynamic() || !run.has(LoadType::free_field))
+        return;
+      const NodeMap<dim> &nodes = model.nodes();
+      std::vector<unsigned int> at_side;
+      for (const LoadParameters *load : run.loads)
+        if (load->type == LoadType::free_field)
+          for (const BoundaryFace<dim> &face :
+               faces_of_curves(nodes, load->boundaries, load->name))
+            at_side.insert(at_side.end(), face.nodes.begin(), face.nodes.end());
+      std::sort(at_side.begin(), at_side.end());
+      const double frequency
+          = fastest_load(run.parameters, run.index).frequency;
+      SideJoint<dim> worst;
+      for (const auto &face : faces_of(model.joints()))
+        for (unsigned int k = 0; k < dim; ++k)
+        {
+          const JointNodes<dim> &joint = nodes.faces().joints[face.face];
+          const unsigned int node      = face.lower[k];
+          if (!std::binary_search(at_side.begin(), at_side.end(),
+                                  nodes.exchange().global(node)))
+            continue;
+          const LinearElastic &rock
+              = run.parameters.model
+                    .materials[material_of_cell(
+                        model, joint.cells[joint.is_own[0] ? 0 : 1])]
+                    .elastic;
+          const WaveSpeeds wave = wave_speeds(rock, run.parameters.model.plane);
+          const auto [kn, ks]
+              = stiffness_bound(run.parameters.model.joints[face.set].law);
+          const double delay = constants::pi * frequency * rock.density
+                               * std::max(wave.p / kn, wave.s / ks);
+          if (delay > worst.delay)
+            worst = { delay, face.set, nodes.point(node) };
+        }
+      for (const SideJoint<dim> &other :
+           dealii::Utilities::MPI::all_gather(nodes.communicator(), worst))
+        if (other.delay > worst.delay)
+          worst = other;
+      if (worst.delay > least_delay)
+        checks.warn_if(
+            true, "joints of the set ",
+            run.parameters.model.joints[worst.set].name,
+            " meet a free field, such as at ", point_text(worst.position),
+            " m, whose ground has no joints: at ", frequency,
+            " Hz one of them delays a wave by ",
+            2. * worst.delay / constants::degree,
+            " degrees in the model and not beside it. Move the sides away, or "
+            "leave the joints out near them.");
+    }
+  } // namespace
+
   bool wants_hoop_stress(const Parameters &parameters)
   {
     return std::any_of(
@@ -617,6 +697,7 @@ namespace quoin
     if (rise > 0.) // else nothing deforms
       check_jumps(run, rise, checks);
     check_edges(run, sizes, checks);
+    check_joints_at_sides(model, run, checks);
     if constexpr (dim == 2)
       if (run.stage.is_dynamic() && parameters.model.large_displacements)
         check_soft_contacts(model, state,

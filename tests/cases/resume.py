@@ -100,6 +100,22 @@ CASES = {
                "Beams/shotcrete/Hinge moment=5e3",
                "Stages/excavation/End=time", "Stages/excavation/Duration=0.01",
                "Output/Checkpoint interval=0.1"], 1, 2),
+    # ... that is placed on ground that has moved
+    "liner, later": (
+        os.path.join(common.VERIFICATION, "liner", "case.prm"),
+        ["Stages/Names=excavation, lined", "Stages/excavation/Release=0.4",
+         "Stages/excavation/End=time", "Stages/excavation/Duration=0.005",
+         "Stages/lined/Loads=far_field", "Beams/shotcrete/Stage=lined",
+         "Stages/lined/End=time", "Stages/lined/Duration=0.01",
+         "Stages/lined/Release=1", "Stages/lined/Damping=local",
+         "Output/Checkpoint interval=0.1"], 1, 2),
+    "liner, later, implicit": (
+        os.path.join(common.VERIFICATION, "liner", "case.prm"),
+        ["Solver=implicit", "Stages/Names=excavation, lined",
+         "Stages/excavation/Release=0.4", "Stages/lined/Loads=far_field",
+         "Beams/shotcrete/Stage=lined", "Stages/lined/End=static ratio",
+         "Stages/lined/Release=1", "Implicit/First step=0.02",
+         "Implicit/Largest step=0.02", "Output/Checkpoint interval=0.02"], 1, 2),
     # cells that yield
     "salencon": (os.path.join(common.VERIFICATION, "salencon", "case.prm"),
                  ["Output/Checkpoint interval=0.05",

@@ -185,6 +185,9 @@ def main():
     times = [0.2 * k for k in range(30, 101)]
     write("front.csv", "time [s],quarter [Pa]",
           [(t, 1e5 * (1 - 0.5 / front(t))) for t in times])
+    write("wide_front.csv", "time [s],quarter [Pa]",
+          [(1e-4 * t, 1e5 * (1 - 0.5 / front(1e-4 * t, aperture=1e-2)))
+           for t in times])
     # full pressure at rest; the cubic law over 2 m once the wall is free
     q = 2e-4**3 / (12 * MU) * 1e4 * 10 / 2
     write("drift.csv", "time [s],drift [m^3/s],lake [m^3/s],middle [Pa]",

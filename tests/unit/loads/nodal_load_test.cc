@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../mesh/test_meshes.h"
 #include "../mesh/test_nodes.h"
 
+#include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
+#include <quoin/mesh/block_splitter.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 using namespace quoin;
-using quoin::test::TestNodes;
+using namespace quoin::test;
 
 namespace
 {
@@ -145,6 +149,39 @@ TEST(NodalLoad, DistributionIsAFactorByPlace)
   EXPECT_DOUBLE_EQ(force[1][1], 4.5);
   EXPECT_EQ(force[0][1], 0.);
   EXPECT_EQ(force[2][1], 0.);
+}
+
+TEST(NodalLoad, PressureInAJointIsInBalanceWhateverTheThicknesses)
+{
+  MeshData<2> data;
+  add_grid(data, 1, 1, "footing", 0., 0.);
+  add_grid(data, 1, 1, "wall", 0., 1.);
+  add_curve(data, "joint", 0., 1., 1., 1.);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  const TestNodes nodes(mesh);
+  LoadParameters constant;
+  constant.name        = "water";
+  constant.boundaries  = { "joint" };
+  constant.pressure    = { LoadQuantity::force, TimeFunction("8", "./") };
+  LoadParameters level = constant; // 1 kPa at the joint
+  level.pressure.field
+      = std::make_shared<LoadField>(TimeFunction("1 + 8/9810", "./"));
+  for (const LoadParameters &parameters : { constant, level })
+  {
+    const NodalLoad<2> load(parameters, nodes, std::vector<double>(8, 1.),
+                            Thickness({ 0.6, 0.25 }));
+    std::vector<dealii::Tensor<1, 2>> force(8, dealii::Tensor<1, 2>());
+    load.add_loads({ 0., 0. }, force.data());
+    double sum[2] = { 0., 0. }; // of both blocks
+    for (unsigned int i = 0; i < 8; ++i)
+    {
+      sum[i < 4 ? 0 : 1] += force[i][1];
+      EXPECT_NEAR(force[i][0], 0., 1e-12);
+    }
+    EXPECT_NEAR(std::abs(sum[0]), 8. * 0.25, 1e-9);
+    EXPECT_NEAR(sum[0] + sum[1], 0., 1e-12);
+  }
 }
 
 TEST(NodalLoad, GravityActsInItsGroupsAlone)
