@@ -580,7 +580,9 @@ namespace quoin
     template <int dim>
     struct SideJoint
     {
-      double delay = 0.; /**< pi f Z/k: half the phase that waves lose [-] */
+      /** pi f Z/k with the impedance Z: tangent of the phase by which it delays
+          a wave @cite Schoenberg1980 [-]. */
+      double delay = 0.;
       unsigned int set;
       dealii::Point<dim> position;
     };
@@ -590,8 +592,7 @@ namespace quoin
     void check_joints_at_sides(const Model<dim> &model, const StageOfRun &run,
                                Checks &checks)
     {
-      /** Least SideJoint::delay, of 3 degrees. */
-      constexpr double least_delay = 0.025;
+      constexpr double least_delay = 0.05; // 3 degrees
       if (!run.stage.is_dynamic() || !run.has(LoadType::free_field))
         return;
       const NodeMap<dim> &nodes = model.nodes();
@@ -637,7 +638,7 @@ namespace quoin
             " meet a free field, such as at ", point_text(worst.position),
             " m, whose ground has no joints: at ", frequency,
             " Hz one of them delays a wave by ",
-            2. * worst.delay / constants::degree,
+            std::atan(worst.delay) / constants::degree,
             " degrees in the model and not beside it. Move the sides away, or "
             "leave the joints out near them.");
     }
