@@ -179,10 +179,11 @@ namespace quoin
       return times;
     }
 
-    /** Whether all weights of the run together act upwards all the time; those
-        of load patterns have any direction. */
-    bool weight_acts_upwards(const Parameters &parameters)
+    /** Names of the weights of the run, if they act upwards together all the
+        time, else empty; those of load patterns have any direction. */
+    std::string weights_upwards(const Parameters &parameters)
     {
+      std::string names;
       std::vector<const LoadComponent *> parts;
       for (const LoadParameters &load : parameters.loads)
       {
@@ -193,17 +194,22 @@ namespace quoin
             });
         if (load.type == LoadType::gravity && !is_pattern
             && load.components[1].quantity != LoadQuantity::free)
+        {
+          names += (names.empty() ? "" : ", ") + load.name;
           parts.push_back(&load.components[1]);
+        }
       }
       const double times[] = { 0., 0.37, 41., late_time };
-      return std::all_of(std::begin(times), std::end(times),
-                         [&](const double t)
-                         {
-                           double sum = 0.;
-                           for (const LoadComponent *part : parts)
-                             sum += part->value({ t, t });
-                           return sum > 0.;
-                         });
+      const bool is_upwards
+          = std::all_of(std::begin(times), std::end(times),
+                        [&](const double t)
+                        {
+                          double sum = 0.;
+                          for (const LoadComponent *part : parts)
+                            sum += part->value({ t, t });
+                          return sum > 0.;
+                        });
+      return is_upwards ? names : std::string();
     }
   } // namespace
 
@@ -268,11 +274,10 @@ namespace quoin
         check(ParameterSection(ParameterSection(top, "Loads"), load.name),
               "load " + load.name + ": ", unit_weight, warnings);
     }
-    if (weight_acts_upwards(parameters))
-      warnings.push_back(
-          "gravity acts upwards. Give 'Vertical' of the loads of "
-          "the type 'gravity' a minus sign, such as -9.81, "
-          "unless that is meant.");
+    if (const std::string names = weights_upwards(parameters); !names.empty())
+      warnings.push_back("load " + names
+                         + ": gravity acts upwards. Give 'Vertical' a minus "
+                           "sign, such as -9.81, unless that is meant.");
     return warnings;
   }
 } // namespace quoin
