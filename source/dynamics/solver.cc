@@ -68,7 +68,10 @@ namespace quoin
     }
     for (const NodalLoad<dim> &load : all.nodal)
       if (names_load(stage, load.name()))
+      {
+        load.refuse_bared_sides(stage.name, state);
         acting.nodal.push_back(&load);
+      }
 
     if constexpr (dim == 2)
       if (all.beams)

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/loads/joint_crack.h>
 #include <quoin/loads/load_field.h>
@@ -195,6 +196,13 @@ namespace quoin
     {
       acts_in_joints = true;
       given_ramp     = -1.;
+      communicator   = node_map.communicator();
+      for (const JointNodes<dim> &joint : node_map.faces().joints)
+        if (thickness[joint.groups[0]] != thickness[joint.groups[1]]
+            && is_among(node_map.table().face_names[joint.name],
+                        parameters.boundaries))
+          uneven_joints.push_back({ node_map.block_of_node(joint.lower[0]),
+                                    node_map.block_of_node(joint.upper[0]) });
     }
     if (parameters.differs_by_place())
     {
@@ -232,6 +240,27 @@ namespace quoin
       if (!inward.empty())
         inward[i] *= node_factors[i];
     }
+  }
+
+  template <int dim>
+  void NodalLoad<dim>::refuse_bared_sides(const std::string &name,
+                                          const State<dim> &state) const
+  {
+    if (!acts_in_joints)
+      return;
+    const bool is_bared = std::any_of(
+        uneven_joints.begin(), uneven_joints.end(),
+        [&](const auto &blocks)
+        { return state.is_absent(blocks[0]) != state.is_absent(blocks[1]); });
+    if (dealii::Utilities::MPI::max(unsigned(is_bared), communicator) > 0)
+      throw InputError("section 'Loads/" + load_name
+                       + "': 'Pressure' acts in a joint between groups of "
+                         "different 'Thickness', over the smaller one, but in "
+                         "the stage '"
+                       + name
+                       + "' the block on one side of it is excavated or not "
+                         "there yet. Give both groups the same 'Thickness', or "
+                         "leave this load out of the stage.");
   }
 
   template <int dim>

@@ -179,37 +179,49 @@ namespace quoin
       return times;
     }
 
-    /** Names of the weights of the run, if they act upwards together all the
-        time, else empty; those of load patterns have any direction. */
-    std::string weights_upwards(const Parameters &parameters)
+    bool have_common_blocks(const LoadParameters &a, const LoadParameters &b)
     {
-      std::string names;
-      std::vector<const LoadComponent *> parts;
-      for (const LoadParameters &load : parameters.loads)
+      return a.groups.empty() || b.groups.empty()
+             || std::any_of(a.groups.begin(), a.groups.end(),
+                            [&](const std::string &group)
+                            { return is_among(group, b.groups); });
+    }
+
+    /** Whether @p load is a weight that acts upwards all the time in a stage,
+        also together with the others there on the same blocks, such as a
+        seismic part beside the weight. Load patterns, which may have any
+        direction, are no loads of a stage. */
+    bool acts_upwards(const LoadParameters &load, const Parameters &parameters)
+    {
+      const auto is_upwards
+          = [](const std::vector<const LoadParameters *> &loads)
       {
-        const bool is_pattern = std::any_of(
-            parameters.stages.begin(), parameters.stages.end(),
-            [&](const StageParameters &stage) {
-              return stage.pattern && is_among(load.name, stage.pattern->loads);
-            });
-        if (load.type == LoadType::gravity && !is_pattern
-            && load.components[1].quantity != LoadQuantity::free)
-        {
-          names += (names.empty() ? "" : ", ") + load.name;
-          parts.push_back(&load.components[1]);
-        }
-      }
-      const double times[] = { 0., 0.37, 41., late_time };
-      const bool is_upwards
-          = std::all_of(std::begin(times), std::end(times),
-                        [&](const double t)
-                        {
-                          double sum = 0.;
-                          for (const LoadComponent *part : parts)
-                            sum += part->value({ t, t });
-                          return sum > 0.;
-                        });
-      return is_upwards ? names : std::string();
+        const double times[] = { 0., 0.37, 41., late_time };
+        return std::all_of(std::begin(times), std::end(times),
+                           [&](const double t)
+                           {
+                             double sum = 0.;
+                             for (const LoadParameters *each : loads)
+                               if (each->components[1].quantity
+                                   != LoadQuantity::free)
+                                 sum += each->components[1].value({ t, t });
+                             return sum > 0.;
+                           });
+      };
+      if (load.type != LoadType::gravity || !is_upwards({ &load }))
+        return false;
+      return std::any_of(parameters.stages.begin(), parameters.stages.end(),
+                         [&](const StageParameters &stage)
+                         {
+                           std::vector<const LoadParameters *> together;
+                           for (const LoadParameters &other : parameters.loads)
+                             if (other.type == LoadType::gravity
+                                 && names_load(stage, other.name)
+                                 && have_common_blocks(load, other))
+                               together.push_back(&other);
+                           return names_load(stage, load.name)
+                                  && is_upwards(together);
+                         });
     }
   } // namespace
 
@@ -273,11 +285,11 @@ namespace quoin
       if (load.type == LoadType::initial_stress)
         check(ParameterSection(ParameterSection(top, "Loads"), load.name),
               "load " + load.name + ": ", unit_weight, warnings);
+      if (acts_upwards(load, parameters))
+        warnings.push_back("load " + load.name
+                           + ": gravity acts upwards. Give 'Vertical' a minus "
+                             "sign, such as -9.81, unless that is meant.");
     }
-    if (const std::string names = weights_upwards(parameters); !names.empty())
-      warnings.push_back("load " + names
-                         + ": gravity acts upwards. Give 'Vertical' a minus "
-                           "sign, such as -9.81, unless that is meant.");
     return warnings;
   }
 } // namespace quoin

@@ -140,8 +140,8 @@ namespace quoin
   BeamMotion::stiffness_bound(const State<2> &state) const
   {
     constexpr unsigned int dim = 2;
-    // Of the shape at rest, so that a resumed run has the step of the whole
-    // one.
+    // The bound is that of the shape at rest, so that a resumed run has the
+    // time step of the whole run.
     BeamState now = state.get<BeamState>();
     for (NodeRecord<dim> &node : now.nodes)
       node.u = dealii::Tensor<1, dim>();

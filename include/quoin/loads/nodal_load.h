@@ -9,6 +9,7 @@
 #include <quoin/loads/load_parameters.h>
 #include <quoin/mesh/global_geometry.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -83,6 +84,11 @@ namespace quoin
     {
       return acts_in_joints;
     }
+    /** Throws an InputError if a joint between blocks of different thickness,
+        over the smaller of which the pressure acts, has one of them alone in
+        the stage @p name. Collective. */
+    void refuse_bared_sides(const std::string &name,
+                            const State<dim> &state) const;
 
     const char *kind() const override
     {
@@ -134,7 +140,10 @@ namespace quoin
     LoadComponent pressure;
     std::vector<unsigned int> nodes;
     std::vector<double> weights;
-    bool acts_in_joints = false;
+    bool acts_in_joints   = false;
+    MPI_Comm communicator = MPI_COMM_SELF;
+    /** Blocks of different thickness at joints with its pressure. */
+    std::vector<std::array<unsigned int, 2>> uneven_joints;
     double given_ramp; /**< -1: automatic [s] */
     double ramp_duration = 0.;
     std::vector<dealii::Tensor<1, dim>>
