@@ -582,7 +582,7 @@ namespace quoin
     {
       /** pi f Z/k with the impedance Z: tangent of the phase by which it delays
           a wave @cite Schoenberg1980 [-]. */
-      double delay = 0.;
+      double delay     = 0.;
       unsigned int set = 0;
       dealii::Point<dim> position;
     };
