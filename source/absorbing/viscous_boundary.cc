@@ -202,7 +202,7 @@ namespace quoin
                            const typename Dashpot<dim>::Damping &damping,
                            const dealii::Tensor<1, dim> &pull,
                            const MotionConstraint<dim> *owner,
-                           std::array<double, 3> &resultant, State<dim> &state)
+                           Resultant<dim> &resultant, State<dim> &state)
   {
     const dealii::Tensor<1, dim> &v0  = before.velocity;
     const dealii::Tensor<1, dim> &v1  = state.velocity[before.node];
@@ -223,10 +223,9 @@ namespace quoin
       state.energy.damping += rayleigh * w0;
       state.pending.damping += rayleigh * w1;
       reaction[d] = pull[d] - drag[d];
-      resultant[d] += reaction[d];
     }
-    if constexpr (dim == 2)
-      resultant[2] += moment_of(reaction, before, state.nodes[before.node]);
+    add_force(reaction, place_before(before, state.nodes[before.node]),
+              resultant);
   }
 
   template <int dim>
@@ -346,12 +345,10 @@ namespace quoin
   template void move_with_dashpot(const StepContext &, const CapturedNode<2> &,
                                   const Dashpot<2>::Damping &,
                                   const dealii::Tensor<1, 2> &, State<2> &);
-  template void account_for_dashpot(const StepContext &,
-                                    const CapturedNode<2> &,
-                                    const Dashpot<2>::Damping &,
-                                    const dealii::Tensor<1, 2> &,
-                                    const MotionConstraint<2> *,
-                                    std::array<double, 3> &, State<2> &);
+  template void
+  account_for_dashpot(const StepContext &, const CapturedNode<2> &,
+                      const Dashpot<2>::Damping &, const dealii::Tensor<1, 2> &,
+                      const MotionConstraint<2> *, Resultant<2> &, State<2> &);
   template struct Dashpot<3>;
   template class ViscousBoundary<3>;
   template void add_dashpots(const NodeMap<3> &,
@@ -365,10 +362,8 @@ namespace quoin
   template void move_with_dashpot(const StepContext &, const CapturedNode<3> &,
                                   const Dashpot<3>::Damping &,
                                   const dealii::Tensor<1, 3> &, State<3> &);
-  template void account_for_dashpot(const StepContext &,
-                                    const CapturedNode<3> &,
-                                    const Dashpot<3>::Damping &,
-                                    const dealii::Tensor<1, 3> &,
-                                    const MotionConstraint<3> *,
-                                    std::array<double, 3> &, State<3> &);
+  template void
+  account_for_dashpot(const StepContext &, const CapturedNode<3> &,
+                      const Dashpot<3>::Damping &, const dealii::Tensor<1, 3> &,
+                      const MotionConstraint<3> *, Resultant<3> &, State<3> &);
 } // namespace quoin

@@ -94,26 +94,17 @@ namespace quoin
   }
 
   template <int dim>
-  std::array<double, 3>
+  Resultant<dim>
   AddedWater<dim>::resultant(const std::string &load,
                              const CentralDifferences<dim> &stepper) const
   {
-    std::array<double, 3> sums{};
+    Resultant<dim> sums{};
     for (unsigned int r = 0; r < reservoir_masses.size(); ++r)
       for (const NodeMass<dim> &mass : reservoir_masses[r])
-      {
-        if (reservoirs[r].name() != load)
-          continue;
-        const dealii::Tensor<1, dim> force = stepper.inertia_force(mass);
-        for (unsigned int d = 0; d < dim; ++d)
-          sums[d] += force[d];
-        if constexpr (dim == 2)
-        {
-          const dealii::Point<2> p = model.nodes().point(mass.node);
-          sums[2] += p[0] * force[1] - p[1] * force[0];
-        }
-      }
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM,
+        if (reservoirs[r].name() == load)
+          add_force<dim>(stepper.inertia_force(mass),
+                         model.nodes().point(mass.node), sums);
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM,
                   model.nodes().communicator());
     return sums;
   }

@@ -60,8 +60,7 @@ namespace quoin
   }
 
   template <int dim>
-  std::array<double, 3>
-  ExplicitSolver<dim>::resultant(const std::string &load) const
+  Resultant<dim> ExplicitSolver<dim>::resultant(const std::string &load) const
   {
     return all.has_added_mass(load) ? water.resultant(load, stepper)
                                     : Solver<dim>::resultant(load);

@@ -217,7 +217,7 @@ namespace quoin
   }
 
   template <int dim>
-  std::array<double, 3> Solver<dim>::resultant(const std::string &load) const
+  Resultant<dim> Solver<dim>::resultant(const std::string &load) const
   {
     return all.resultant(load, communicator);
   }

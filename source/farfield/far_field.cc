@@ -368,10 +368,9 @@ namespace quoin
         state.energy.damping += rayleigh * w0;
         state.pending.damping += rayleigh * w1;
         reaction[d] = force;
-        last_resultant[d] += force;
       }
-      last_resultant[2]
-          += moment_of(reaction, before, state.nodes[before.node]);
+      add_force(reaction, place_before(before, state.nodes[before.node]),
+                last_resultant);
     }
     if (is_first_rank)
     {

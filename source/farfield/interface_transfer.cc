@@ -19,6 +19,39 @@ namespace quoin
       return point_text(x) + " m";
     }
 
+    /** Means of the linear functions of an edge over its part from @p begin to
+        @p end, between 0 and 1. */
+    std::array<double, 2> linear_means(const double begin, const double end)
+    {
+      const double middle = 0.5 * (begin + end);
+      return { 1. - middle, middle };
+    }
+
+    /** The same of the quadratic functions: of the node where the edge begins,
+        of that in its middle, and of that where it ends. */
+    std::array<double, 3> quadratic_means(const double begin, const double end)
+    {
+      const double middle = 0.5 * (begin + end);
+      // Mean of the square by Simpson's rule, which is exact.
+      const double square
+          = (begin * begin + 4. * middle * middle + end * end) / 6.;
+      return { 1. - 3. * middle + 2. * square, 4. * (middle - square),
+               2. * square - middle };
+    }
+
+    /** The vertices of the quadratic edges by the node in their middle, which
+        is where two of @p faces meet and has the larger share of both. */
+    std::map<unsigned int, std::vector<unsigned int>>
+    ends_of_quadratic_edges(const std::vector<BoundaryFace<2>> &faces)
+    {
+      std::map<unsigned int, std::vector<unsigned int>> ends;
+      for (const BoundaryFace<2> &face : faces)
+        for (unsigned int k = 0; k < 2; ++k)
+          if (face.shares[k] > face.shares[1 - k])
+            ends[face.nodes[k]].push_back(face.nodes[1 - k]);
+      return ends;
+    }
+
     /** Overlap of the segment @p element and the edge from @p a to @p b. */
     struct Overlap
     {
@@ -48,6 +81,34 @@ namespace quoin
   {
     std::vector<double> covered(elements.size(), 0.);
     std::map<unsigned int, std::vector<Entry>> rows; // of all nodes
+    const auto quadratic_ends = ends_of_quadratic_edges(faces);
+    // Integrals of the functions of the edge over a part of it that is a share
+    // of its length.
+    const auto add_part = [&](const BoundaryFace<2> &face, const unsigned int e,
+                              const Overlap &part, const double length)
+    {
+      if (face.shares[0] == face.shares[1])
+      {
+        const auto means = linear_means(part.begin, part.end);
+        for (unsigned int k = 0; k < 2; ++k)
+          rows[face.nodes[k]].push_back({ e, length * means[k] });
+        return;
+      }
+      // The face is half of the edge, from a vertex to the middle or on from
+      // there.
+      const bool is_second    = face.shares[0] > face.shares[1];
+      const unsigned int here = face.nodes[is_second ? 1 : 0],
+                         mid  = face.nodes[is_second ? 0 : 1];
+      const auto &ends        = quadratic_ends.at(mid);
+      const auto means
+          = is_second ? quadratic_means(0.5 * (1. - part.end),
+                                        0.5 * (1. - part.begin))
+                      : quadratic_means(0.5 * part.begin, 0.5 * part.end);
+      rows[here].push_back({ e, length * means[0] });
+      rows[mid].push_back({ e, length * means[1] });
+      rows[ends[0] == here ? ends[1] : ends[0]].push_back(
+          { e, length * means[2] });
+    };
     for (const BoundaryFace<2> &face : faces)
     {
       const auto &[a, b] = face.points;
@@ -67,10 +128,7 @@ namespace quoin
           continue;
         found += share;
         covered[e] += share * size;
-        // Integrals of the edge's linear functions over the part.
-        const double mean = 0.5 * (part.begin + part.end);
-        rows[face.nodes[0]].push_back({ e, share * size * (1. - mean) });
-        rows[face.nodes[1]].push_back({ e, share * size * mean });
+        add_part(face, e, part, share * size);
       }
       if (std::abs(found - 1.) > 1e-3)
         throw InputError("the edge of a block at " + place(0.5 * (a + b))

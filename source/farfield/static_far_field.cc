@@ -177,10 +177,9 @@ namespace quoin
         state.energy.damping += rayleigh * w0;
         state.pending.damping += rayleigh * w1;
         reaction[d] = held - thickness * traction[d];
-        last_resultant[d] += reaction[d];
       }
-      last_resultant[2]
-          += moment_of(reaction, before, state.nodes[before.node]);
+      add_force(reaction, place_before(before, state.nodes[before.node]),
+                last_resultant);
     }
     transfer.gather(
         [&](const unsigned int k)

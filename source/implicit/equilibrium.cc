@@ -345,7 +345,7 @@ namespace quoin
                                      Balance<2> &balance, const Slopes *slopes)
   {
     balance.far_field_energy = 0.;
-    balance.far_field_force  = { { 0., 0., 0. } };
+    balance.far_field_force  = {};
     if (!far_field)
       return;
     const auto &nodes = far_field->nodes();
@@ -356,17 +356,14 @@ namespace quoin
         force.data());
     for (const unsigned int node : nodes)
     {
-      const auto &X = model.nodes().point(node);
+      dealii::Tensor<1, 2> on_free;
       for (unsigned int d = 0; d < 2; ++d)
       {
-        const double by_far_field = force[node][d];
-        applied_force[node][d] += by_far_field;
-        if (!dof_map.is_free(node, d))
-          continue;
-        balance.far_field_force[d] += by_far_field;
-        balance.far_field_force[2]
-            += d == 0 ? -X[1] * by_far_field : X[0] * by_far_field;
+        applied_force[node][d] += force[node][d];
+        if (dof_map.is_free(node, d))
+          on_free[d] = force[node][d];
       }
+      add_force<2>(on_free, model.nodes().point(node), balance.far_field_force);
     }
     for (unsigned int k = 0; slopes && k < far_rows.size(); ++k)
       matrix.add(far_rows[k], far_columns.size(), far_columns.data(),

@@ -671,11 +671,17 @@ namespace quoin
                 : collapse_share * model.nodes().table().diagonal();
       if (outcome == Outcome::converged)
       {
+        const bool jumps  = state.template get<ImplicitState>().jumps;
         const double path = std::abs(balance.path);
+        // The factor of a pattern whose loads no longer move what is controlled
+        // may grow until blocks give way elsewhere.
+        const double went
+            = acting.pattern && !jumps
+                  ? largest_move(state.nodes, configuration.nodes)
+                  : 0.;
         // Soft joints slip far once they lose strength, whatever the drag.
-        if (path <= most
-            || (stage.safety && state.template get<ImplicitState>().jumps
-                && path > at_once_share * refused))
+        if (std::max(path, went) <= most
+            || (stage.safety && jumps && path > at_once_share * refused))
           break;
         refused = path;
       }
@@ -821,8 +827,7 @@ namespace quoin
   }
 
   template <int dim>
-  std::array<double, 3>
-  ImplicitSolver<dim>::resultant(const std::string &load) const
+  Resultant<dim> ImplicitSolver<dim>::resultant(const std::string &load) const
   {
     if (!has_balance())
       return {};
@@ -831,19 +836,6 @@ namespace quoin
         return reaction(model, *dof_map, all.far.elastostatic, balance,
                         *constraint);
     return {};
-  }
-
-  template <int dim>
-  std::array<double, 3>
-  ImplicitSolver<dim>::moments(const MotionConstraint<dim> &platen) const
-  {
-    std::array<double, 3> result{};
-    if (dim == 3 && has_balance())
-    {
-      const auto drive = platen_drive(model, *dof_map, balance, platen);
-      std::copy(drive.end() - 3, drive.end(), result.begin());
-    }
-    return result;
   }
 
   template <int dim>

@@ -72,11 +72,11 @@ namespace quoin
   }
 
   template <int dim>
-  std::array<double, n_body_motions<dim>>
+  Resultant<dim>
   platen_drive(const Model<dim> &model, const DofMap<dim> &dof_map,
                const Balance<dim> &balance, const MotionConstraint<dim> &platen)
   {
-    std::array<double, n_body_motions<dim>> result{};
+    Resultant<dim> result{};
     const auto forces = body_forces(dof_map.bodies(), balance.force,
                                     model.nodes().communicator());
     for (unsigned int b = 0; b < forces.size(); ++b)
@@ -88,19 +88,15 @@ namespace quoin
   }
 
   template <int dim>
-  std::array<double, 3>
-  reaction(const Model<dim> &model, const DofMap<dim> &dof_map,
-           const StaticFarField *far_field, const Balance<dim> &balance,
-           const MotionConstraint<dim> &constraint)
+  Resultant<dim> reaction(const Model<dim> &model, const DofMap<dim> &dof_map,
+                          const StaticFarField *far_field,
+                          const Balance<dim> &balance,
+                          const MotionConstraint<dim> &constraint)
   {
     const MPI_Comm communicator = model.nodes().communicator();
-    std::array<double, 3> result{};
     if (constraint.traits().is_rigid_body())
-    {
-      const auto drive = platen_drive(model, dof_map, balance, constraint);
-      std::copy_n(drive.begin(), 3, result.begin());
-      return result;
-    }
+      return platen_drive(model, dof_map, balance, constraint);
+    Resultant<dim> result{};
     if constexpr (dim == 2)
       if (&constraint == far_field)
         result = balance.far_field_force;
@@ -109,14 +105,12 @@ namespace quoin
       {
         if (given.part != &(*constraint.parts())[given.component])
           continue;
-        const auto &X      = model.nodes().point(given.node);
-        const double force = -balance.force[given.node][given.component];
-        result[given.component] += force;
-        if constexpr (dim == 2)
-          result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
+        dealii::Tensor<1, dim> force;
+        force[given.component] = -balance.force[given.node][given.component];
+        add_force<dim>(force, model.nodes().point(given.node), result);
       }
-    MPI_Allreduce(MPI_IN_PLACE, result.data(), 3, MPI_DOUBLE, MPI_SUM,
-                  communicator);
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPI_DOUBLE,
+                  MPI_SUM, communicator);
     return result;
   }
 
@@ -124,24 +118,20 @@ namespace quoin
                           const State<2> &, const Balance<2> &,
                           const Configuration<2> &, const Balance<2> &,
                           EnergyAccounts &);
-  template std::array<double, 3> platen_drive(const Model<2> &,
-                                              const DofMap<2> &,
-                                              const Balance<2> &,
-                                              const MotionConstraint<2> &);
-  template std::array<double, 3> reaction(const Model<2> &, const DofMap<2> &,
-                                          const StaticFarField *,
-                                          const Balance<2> &,
-                                          const MotionConstraint<2> &);
+  template Resultant<2> platen_drive(const Model<2> &, const DofMap<2> &,
+                                     const Balance<2> &,
+                                     const MotionConstraint<2> &);
+  template Resultant<2> reaction(const Model<2> &, const DofMap<2> &,
+                                 const StaticFarField *, const Balance<2> &,
+                                 const MotionConstraint<2> &);
   template void book_work(const Model<3> &, DofMap<3> &, const StaticFarField *,
                           const State<3> &, const Balance<3> &,
                           const Configuration<3> &, const Balance<3> &,
                           EnergyAccounts &);
-  template std::array<double, 6> platen_drive(const Model<3> &,
-                                              const DofMap<3> &,
-                                              const Balance<3> &,
-                                              const MotionConstraint<3> &);
-  template std::array<double, 3> reaction(const Model<3> &, const DofMap<3> &,
-                                          const StaticFarField *,
-                                          const Balance<3> &,
-                                          const MotionConstraint<3> &);
+  template Resultant<3> platen_drive(const Model<3> &, const DofMap<3> &,
+                                     const Balance<3> &,
+                                     const MotionConstraint<3> &);
+  template Resultant<3> reaction(const Model<3> &, const DofMap<3> &,
+                                 const StaticFarField *, const Balance<3> &,
+                                 const MotionConstraint<3> &);
 } // namespace quoin

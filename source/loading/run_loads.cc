@@ -267,9 +267,8 @@ namespace quoin
   }
 
   template <int dim>
-  std::array<double, 3>
-  RunLoads<dim>::resultant(const std::string &load,
-                           const MPI_Comm communicator) const
+  Resultant<dim> RunLoads<dim>::resultant(const std::string &load,
+                                          const MPI_Comm communicator) const
   {
     const MotionConstraint<dim> *idle = nullptr; // of two with one name
     if constexpr (dim == 2)
@@ -284,8 +283,8 @@ namespace quoin
       {
         auto values = constraint->resultant();
         if (!constraint->traits().is_rigid_body())
-          MPI_Allreduce(MPI_IN_PLACE, values.data(), 3, MPI_DOUBLE, MPI_SUM,
-                        communicator);
+          MPI_Allreduce(MPI_IN_PLACE, values.data(), values.size(), MPI_DOUBLE,
+                        MPI_SUM, communicator);
         return values;
       }
     throw InputError("'" + load

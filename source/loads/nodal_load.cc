@@ -11,6 +11,8 @@
 #include <quoin/loads/traction_field.h>
 #include <quoin/mesh/kind_text.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -28,6 +30,22 @@ namespace quoin
     double grown_share(const double time, const double duration)
     {
       return duration > 0. ? half_cosine(time, duration) : 1.;
+    }
+
+    /** Throws an InputError if one of @p values that a distribution has given
+        is no finite number on any rank. */
+    void check_distribution(const std::string &load,
+                            const std::vector<double> &values,
+                            const MPI_Comm communicator)
+    {
+      const bool is_wrong
+          = std::any_of(values.begin(), values.end(),
+                        [](const double f) { return !std::isfinite(f); });
+      if (dealii::Utilities::MPI::max(unsigned(is_wrong), communicator) > 0)
+        throw InputError("section 'Loads/" + load
+                         + "': 'Distribution' is no finite number somewhere "
+                           "where the load acts. Give an expression that has a "
+                           "value everywhere.");
     }
 
     unsigned int position(const std::vector<std::string> &names,
@@ -209,6 +227,11 @@ namespace quoin
       make_field(parameters, node_map, faces, thickness);
       return;
     }
+    if (parameters.distribution)
+    {
+      find_distributed_areas(parameters, node_map, faces, thickness);
+      return;
+    }
     std::map<unsigned int, double> area;
     std::map<unsigned int, dealii::Tensor<1, dim>> inward_area;
     for (const BoundaryFace<dim> &face : faces)
@@ -232,13 +255,6 @@ namespace quoin
       weights.push_back(weight);
       if (pressure.quantity != LoadQuantity::free)
         inward.push_back(inward_area[node]);
-    }
-    find_factors(parameters, node_map);
-    for (unsigned int i = 0; i < node_factors.size(); ++i)
-    {
-      weights[i] *= node_factors[i];
-      if (!inward.empty())
-        inward[i] *= node_factors[i];
     }
   }
 
@@ -281,7 +297,6 @@ namespace quoin
     field = std::make_shared<TractionField<dim>>(sampled, node_map, faces,
                                                  thickness);
     nodes = field->nodes();
-    find_factors(parameters, node_map);
   }
 
   template <int dim>
@@ -318,27 +333,82 @@ namespace quoin
   }
 
   template <int dim>
+  void NodalLoad<dim>::find_distributed_areas(
+      const LoadParameters &parameters, const NodeMap<dim> &node_map,
+      const std::vector<BoundaryFace<dim>> &faces, const Thickness &thickness)
+  {
+    const LoadComponent one{ LoadQuantity::force, TimeFunction("1", "./") };
+    LoadParameters unit = parameters;
+    unit.components     = { one, LoadComponent(), LoadComponent() };
+    unit.pressure       = LoadComponent();
+    const TractionField<dim> along_x(unit, node_map, faces, thickness);
+    nodes = along_x.nodes();
+    for (const dealii::Tensor<1, dim> &force : along_x.forces({ 0., 0. }))
+      weights.push_back(force[0]);
+    if (pressure.quantity != LoadQuantity::free)
+    {
+      unit.components = {};
+      unit.pressure   = one;
+      inward          = TractionField<dim>(unit, node_map, faces, thickness)
+                   .forces({ 0., 0. });
+    }
+    check_distribution(load_name, weights, node_map.communicator());
+  }
+
+  template <int dim>
   void NodalLoad<dim>::find_factors(const LoadParameters &parameters,
                                     const NodeMap<dim> &node_map)
   {
     if (!parameters.distribution)
       return;
-    for (const unsigned int node : nodes)
+    const auto value = [&](const dealii::Point<dim> &point)
     {
       dealii::Point<3> place;
       for (unsigned int d = 0; d < dim; ++d)
-        place[d] = node_map.point(node)[d];
-      node_factors.push_back((*parameters.distribution)(place, 0.));
+        place[d] = point[d];
+      return (*parameters.distribution)(place, 0.);
+    };
+    const LocalCells<dim> &cells = node_map.cells();
+    if (cells.is_quadratic)
+      // The rule that has its points in the middle of the edges is exact.
+      for (const unsigned int node : nodes)
+        node_factors.push_back(value(node_map.point(node)));
+    else
+    {
+      // The mean of the function with the linear one of each node as weight.
+      std::vector<dealii::Tensor<1, 2>> sums(node_map.n_local());
+      const dealii::QGaussSimplex<dim> rule(2);
+      for (const auto &vertices : cells.nodes)
+      {
+        const dealii::Point<dim> &first = node_map.point(vertices[0]);
+        dealii::Tensor<2, dim> edges;
+        for (unsigned int k = 0; k < dim; ++k)
+          edges[k] = node_map.point(vertices[k + 1]) - first;
+        const double volume = dealii::determinant(edges);
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          dealii::Point<dim> point = first;
+          std::array<double, dim + 1> coordinates;
+          coordinates[0] = 1.;
+          for (unsigned int k = 0; k < dim; ++k)
+          {
+            coordinates[k + 1] = rule.point(q)[k];
+            coordinates[0] -= coordinates[k + 1];
+            point += coordinates[k + 1] * edges[k];
+          }
+          const double f = value(point);
+          for (unsigned int k = 0; k <= dim; ++k)
+          {
+            const double weight = coordinates[k] * rule.weight(q) * volume;
+            sums[vertices[k]] += dealii::Tensor<1, 2>({ weight, weight * f });
+          }
+        }
+      }
+      node_map.exchange().add_to_owners(sums.data());
+      for (const unsigned int node : nodes)
+        node_factors.push_back(sums[node][1] / sums[node][0]);
     }
-    const bool is_wrong
-        = std::any_of(node_factors.begin(), node_factors.end(),
-                      [](const double f) { return !std::isfinite(f); });
-    if (dealii::Utilities::MPI::max(unsigned(is_wrong), node_map.communicator())
-        > 0)
-      throw InputError("section 'Loads/" + load_name
-                       + "': 'Distribution' is no finite number at a node on "
-                         "which the load acts. Give an expression that has a "
-                         "value everywhere.");
+    check_distribution(load_name, node_factors, node_map.communicator());
   }
 
   template <int dim>

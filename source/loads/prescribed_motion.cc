@@ -99,11 +99,9 @@ namespace quoin
         state.energy.external
             += 0.5 * step.dt_before * reaction[d] * before.velocity[d];
         state.pending.external += 0.5 * step.dt * reaction[d] * after;
-        this->last_resultant[d] += reaction[d];
       }
-      if constexpr (dim == 2)
-        this->last_resultant[2]
-            += moment_of(reaction, before, state.nodes[before.node]);
+      add_force(reaction, place_before(before, state.nodes[before.node]),
+                this->last_resultant);
     }
   }
 

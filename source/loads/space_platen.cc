@@ -299,7 +299,7 @@ namespace quoin
     last_unbalanced = body.unbalanced;
     for (unsigned int d = 0; d < 6; ++d)
       platen.displacement[d] += step.dt * platen.velocity[d];
-    last_resultant = { { drive[0], drive[1], drive[2] } };
+    last_resultant = drive;
 
     const Vector rate  = half_of(platen.velocity, 3);
     const Matrix after = rotation_by(step.dt * rate) * before;

@@ -505,11 +505,8 @@ namespace quoin
     for (unsigned int i = 0; i < n_columns; ++i)
     {
       const HistoryParameters &wanted = probes[i].parameters;
-      if (wanted.quantity == HistoryQuantity::platen_force
-          && wanted.component >= 3)
-        result[1 + i] = solver.moments(*probes[i].platen)[wanted.component - 3];
-      else if (wanted.quantity == HistoryQuantity::reaction
-               || wanted.quantity == HistoryQuantity::platen_force)
+      if (wanted.quantity == HistoryQuantity::reaction
+          || wanted.quantity == HistoryQuantity::platen_force)
         result[1 + i] = solver.resultant(wanted.load)[wanted.component];
       else if (wanted.quantity == HistoryQuantity::unbalanced_ratio)
         result[1 + i] = state.unbalanced_ratio;

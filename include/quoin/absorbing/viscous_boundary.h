@@ -111,7 +111,7 @@ namespace quoin
                            const typename Dashpot<dim>::Damping &damping,
                            const dealii::Tensor<1, dim> &pull,
                            const MotionConstraint<dim> *owner,
-                           std::array<double, 3> &resultant, State<dim> &state);
+                           Resultant<dim> &resultant, State<dim> &state);
 
   /** State of a viscous boundary that began after the first stage. */
   template <int dim>

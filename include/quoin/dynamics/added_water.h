@@ -45,11 +45,10 @@ namespace quoin
 
     /** Water that moves with faces in the stage [kg]; collective. */
     double total() const;
-    /** Force x, y [N] and moment [N m] of the inertia of the water of @p load
-       in the last step of @p stepper; collective. */
-    std::array<double, 3>
-    resultant(const std::string &load,
-              const CentralDifferences<dim> &stepper) const;
+    /** Force [N] and moment about the origin [N m] of the inertia of the water
+        of @p load in the last step of @p stepper; collective. */
+    Resultant<dim> resultant(const std::string &load,
+                             const CentralDifferences<dim> &stepper) const;
 
   private:
     const Model<dim> &model;

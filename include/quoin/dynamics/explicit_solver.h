@@ -127,7 +127,7 @@ namespace quoin
     }
 
     /** The force of a load; with added mass it has that of its inertia. */
-    std::array<double, 3> resultant(const std::string &load) const override;
+    Resultant<dim> resultant(const std::string &load) const override;
 
   private:
     using Solver<dim>::model;

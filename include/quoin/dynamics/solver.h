@@ -115,15 +115,8 @@ namespace quoin
       return acting;
     }
 
-    /** Force x, y [N] and moment [N m] of a load; collective. */
-    virtual std::array<double, 3> resultant(const std::string &load) const;
-    /** Moments [N m] that drive or load @p platen in three dimensions about the
-        axes; collective. */
-    virtual std::array<double, 3>
-    moments(const MotionConstraint<dim> &platen) const
-    {
-      return platen.rigid_motion()->moments();
-    }
+    /** Force [N] and moment [N m] of a load; collective. */
+    virtual Resultant<dim> resultant(const std::string &load) const;
     /** Called before a checkpoint: completes @p state. */
     virtual void save(State<dim> &state) const;
     /** Called after a checkpoint: drops what only checkpoints need. */

@@ -20,7 +20,8 @@ namespace quoin
    * The motion of an element is the mean over the edges of blocks that it
    * spans, sum_i w_ei v_i with weights that sum to one; the force of its
    * traction p_e on node i is T L_e w_ei p_e, T the thickness. So the work is
-   * the same on both sides, and the element's resultant is kept.
+   * the same on both sides, and the element's resultant is kept. The weights
+   * are the means of the linear or quadratic functions of the edges.
    */
   class InterfaceTransfer
   {

@@ -41,7 +41,7 @@ namespace quoin
     double far_field_energy = 0.; /**< of all ranks [J] */
     /** Force x, y [N] of the far field on free nodes and its moment about the
         origin [N m], of this rank. */
-    std::array<double, 3> far_field_force{ { 0., 0., 0. } };
+    Resultant<2> far_field_force{};
 
     /** Whether beams are in equilibrium with the blocks; if not, the
         unbalanced force is infinite. */

@@ -125,9 +125,7 @@ namespace quoin
 
     void save(State<dim> &state) const override;
 
-    std::array<double, 3> resultant(const std::string &load) const override;
-    std::array<double, 3>
-    moments(const MotionConstraint<dim> &platen) const override;
+    Resultant<dim> resultant(const std::string &load) const override;
 
     /** Record of steps and iterations; the caller that reports them empties the
      * lists. */

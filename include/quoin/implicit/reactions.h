@@ -27,19 +27,19 @@ namespace quoin
   /** Forces [N] and moments [N m] that drive or load @p platen, of all ranks.
       Collective. */
   template <int dim>
-  std::array<double, n_body_motions<dim>>
-  platen_drive(const Model<dim> &model, const DofMap<dim> &dof_map,
-               const Balance<dim> &balance,
-               const MotionConstraint<dim> &platen);
+  Resultant<dim> platen_drive(const Model<dim> &model,
+                              const DofMap<dim> &dof_map,
+                              const Balance<dim> &balance,
+                              const MotionConstraint<dim> &platen);
 
-  /** Force x, y [N] and moment [N m] of @p constraint, as
+  /** Force [N] and moment [N m] of @p constraint, as
       MotionConstraint::resultant(), of all ranks; @p far_field: that of the
       solver, or null. Collective. */
   template <int dim>
-  std::array<double, 3>
-  reaction(const Model<dim> &model, const DofMap<dim> &dof_map,
-           const StaticFarField *far_field, const Balance<dim> &balance,
-           const MotionConstraint<dim> &constraint);
+  Resultant<dim> reaction(const Model<dim> &model, const DofMap<dim> &dof_map,
+                          const StaticFarField *far_field,
+                          const Balance<dim> &balance,
+                          const MotionConstraint<dim> &constraint);
 } // namespace quoin
 
 #endif

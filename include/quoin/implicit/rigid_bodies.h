@@ -15,10 +15,6 @@
 
 namespace quoin
 {
-  /** Number of motions of a rigid body: along the axes, and rotations. */
-  template <int dim>
-  constexpr unsigned int n_body_motions = dim *(dim + 1) / 2;
-
   /** A platen or a rigid block in equilibrium; see DofMap. In three dimensions
       there are platens alone. */
   template <int dim>

@@ -57,10 +57,9 @@ namespace quoin
     bool has_added_mass(const std::string &load) const;
     /** Throws an InputError about loads that @p stage names wrongly. */
     void check(const StageParameters &stage) const;
-    /** Force x, y [N] and moment [N m] of the constraint @p load; collective.
-     */
-    std::array<double, 3> resultant(const std::string &load,
-                                    MPI_Comm communicator) const;
+    /** Force [N] and moment [N m] of the constraint @p load; collective. */
+    Resultant<dim> resultant(const std::string &load,
+                             MPI_Comm communicator) const;
 
     /** Active in the stage or not. */
     std::vector<std::unique_ptr<MotionConstraint<dim>>> constraints;

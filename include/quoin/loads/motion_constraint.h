@@ -4,7 +4,7 @@
 #ifndef quoin_loads_motion_constraint_h
 #define quoin_loads_motion_constraint_h
 
-#include <quoin/base/plane_geometry.h>
+#include <quoin/base/resultant.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/operators/state.h>
 #include <quoin/operators/step_context.h>
@@ -44,13 +44,12 @@ namespace quoin
     bool has_added_mass;
   };
 
-  /** Moment about the origin [N m] of @p force [N] on a node, as it was at t.
-   */
-  inline double moment_of(const dealii::Tensor<1, 2> &force,
-                          const CapturedNode<2> &before,
-                          const NodeRecord<2> &node)
+  /** Place of a node [m] as it was at t. */
+  template <int dim>
+  dealii::Tensor<1, dim> place_before(const CapturedNode<dim> &before,
+                                      const NodeRecord<dim> &node)
   {
-    return cross(node.X + before.displacement, force);
+    return node.X + before.displacement;
   }
 
   /**
@@ -102,15 +101,11 @@ namespace quoin
     virtual const double *displacement(const State<dim> &state) const = 0;
     /** Unbalanced force [N] of its degrees of freedom. */
     virtual double unbalanced() const = 0;
-    /** In three dimensions: the functions of time of its rotations, and the
-        moments about its centre that go with resultant() [N m]; null: none. */
+    /** In three dimensions: the functions of time of its rotations; null: none.
+     */
     virtual const std::array<LoadComponent, 3> *rotations() const
     {
       return nullptr;
-    }
-    virtual std::array<double, 3> moments() const
-    {
-      return {};
     }
 
   protected:
@@ -214,11 +209,11 @@ namespace quoin
     }
 
     /**
-     * Force x, y [N] and moment about the origin or, for a platen, its centre
-     * [N m] on the nodes at the start of the last step; summed over ranks by
-     * the caller unless it is a rigid body.
+     * Force [N] and moment [N m] about the origin or, for a platen, its centre
+     * on the nodes at the start of the last step; summed over ranks by the
+     * caller unless it is a rigid body.
      */
-    std::array<double, 3> resultant() const
+    Resultant<dim> resultant() const
     {
       return last_resultant;
     }
@@ -234,7 +229,7 @@ namespace quoin
     std::string load_name;
     std::vector<unsigned int> node_list;
     std::vector<unsigned int> captured_positions;
-    std::array<double, 3> last_resultant{};
+    Resultant<dim> last_resultant{};
   };
 } // namespace quoin
 

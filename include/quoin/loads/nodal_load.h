@@ -116,6 +116,12 @@ namespace quoin
     }
 
   private:
+    /** Weights and inward areas of a traction with a distribution. */
+    void find_distributed_areas(const LoadParameters &parameters,
+                                const NodeMap<dim> &node_map,
+                                const std::vector<BoundaryFace<dim>> &faces,
+                                const Thickness &thickness);
+    /** Factors of gravity with a distribution. */
     void find_factors(const LoadParameters &parameters,
                       const NodeMap<dim> &node_map);
 
@@ -132,7 +138,10 @@ namespace quoin
         the uplift took it to be [m]; 0: not known. */
     double relaxation = 1., crack_excess = 0.;
     std::shared_ptr<const MovingShape> shape;
-    /** The distribution at each of its nodes; empty: 1. */
+    /** By which its distribution multiplies the mass of each of its nodes: the
+        mean over the cells around, weighted by the node's linear function, so
+        that of a linear distribution resultant and moment are exact; empty:
+        1. */
     std::vector<double> node_factors;
     std::string load_name;
     bool is_gravity, acts_everywhere;

@@ -90,10 +90,6 @@ namespace quoin
     {
       return &turns;
     }
-    std::array<double, 3> moments() const override
-    {
-      return { { drive[3], drive[4], drive[5] } };
-    }
     const double *displacement(const State<3> &state) const override
     {
       return state.get<SpacePlatenState>(load_name).displacement.data();

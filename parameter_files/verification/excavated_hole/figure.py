@@ -55,7 +55,7 @@ def main():
     x, u = run(options.quoin, "case.prm", "side_m",
                ((0, 0.5, 1), (0.5, 1, 1)), hydrostatic)
     left.plot(x, u, "o", ms=3, label="elastic")
-    left.plot(shares, -1e3 * exact.elastic_wall(shares, 0, -10e6, -10e6)[0],
+    left.plot(shares, -1e3 * exact.elastic(shares, 0, -10e6, -10e6)[0],
               "k-", lw=0.8, label="closed forms")
     x, u = run(options.quoin, "lining.prm", "wall_m",
                ((0, 0.5, 1), (0.5, 1, 1)))

@@ -5,8 +5,8 @@
 
 Elastic, under Sxx, Syy (Kirsch 1898): what is gone times
 
-  2 G u_r = a [m + (3 - 4 nu) d cos 2 t],   m = (Sxx + Syy) / 2,
-  2 G u_t = -a (3 - 4 nu) d sin 2 t,        d = (Sxx - Syy) / 2.
+  2 G u_r = a^2/r [m + (4 - 4 nu - a^2/r^2) d cos 2 t],   m = (Sxx + Syy) / 2,
+  2 G u_t = -a^2/r (2 - 4 nu + a^2/r^2) d sin 2 t,        d = (Sxx - Syy) / 2.
 
 Mohr-Coulomb, under the pressure P0 with the support pi = (1 - share) P0
 (Salencon 1969), psi = phi. Pressures positive here, K = (1 + sin phi)/(1 - sin phi),
@@ -48,12 +48,13 @@ P = 2 * COHESION * np.sqrt(K) / (K - 1)
 EDGE_PRESSURE = (2 * PRESSURE - (K - 1) * P) / (K + 1)
 
 
-def elastic_wall(share, angle, sxx=SXX, syy=SYY):
+def elastic(share, angle, sxx=SXX, syy=SYY, r=RADIUS):
     """Radial and tangential displacement [m], outward and anticlockwise."""
     mean, half = (sxx + syy) / 2, (sxx - syy) / 2
-    factor = share * RADIUS * (1 + NU) / YOUNG
-    return (factor * (mean + (3 - 4 * NU) * half * np.cos(2 * angle)),
-            -factor * (3 - 4 * NU) * half * np.sin(2 * angle))
+    near = (RADIUS / r) ** 2
+    factor = share * RADIUS ** 2 / r * (1 + NU) / YOUNG
+    return (factor * (mean + (4 - 4 * NU - near) * half * np.cos(2 * angle)),
+            -factor * (2 - 4 * NU + near) * half * np.sin(2 * angle))
 
 
 def plastic_radius(share):
@@ -105,8 +106,8 @@ def main():
         stream.write("stage [-],side [m],crown [m]\n")
         for time, share in ((1, 0.5), (2, 1.0)):
             stream.write("%g,%.9g,%.9g\n"
-                         % (time, elastic_wall(share, 0.0)[0],
-                            elastic_wall(share, np.pi / 2)[0]))
+                         % (time, elastic(share, 0.0)[0],
+                            elastic(share, np.pi / 2)[0]))
     with open(os.path.join(HERE, "reference_lining.csv"), "w") as stream:
         stream.write("stage [-],wall [m],lining [m],pressure [Pa]\n")
         for stage, row in enumerate(lining()):

@@ -16,6 +16,7 @@ Transfinite Surface{1} Alternate;
 low[] = Extrude {0, 0, 0.5} { Surface{1}; Layers{n / 4}; };
 high[] = Extrude {0, 0, 0.5} { Surface{low[0]}; Layers{n / 4}; };
 
+Physical Surface("foot") = {1};
 Physical Surface("joint") = {low[0]};
 Physical Volume("low") = {low[1]};
 Physical Volume("high") = {high[1]};

@@ -32,6 +32,15 @@ np.savetxt(os.path.join(HERE, "reference.csv"), [[0.0, *values.values()]],
            delimiter=",", fmt="%.12g", comments="",
            header=",".join(["time [s]", *values]))
 
+# Its foot instead: moments about the origin.
+held = -(MOMENT + np.cross([LENGTH / 2, WIDTH / 2, 1.5 * HEIGHT], FORCE))
+values = dict(zip(
+    ("fx [N]", "fy [N]", "fz [N]", "mx [N m]", "my [N m]", "mz [N m]"),
+    (*-FORCE, *held)))
+np.savetxt(os.path.join(HERE, "reference_held.csv"), [[0.0, *values.values()]],
+           delimiter=",", fmt="%.12g", comments="",
+           header=",".join(["time [s]", *values]))
+
 # A bar whose clamp turns at a constant rate, when it has turned by |TURN|: the cap
 # at its other end follows, without force. The way of a corner of the cap against
 # that of one of the clamp, which is ACROSS from it.

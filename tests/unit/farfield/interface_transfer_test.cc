@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../mesh/test_meshes.h"
 #include "../mesh/test_nodes.h"
 
 #include <quoin/base/exceptions.h>
 #include <quoin/farfield/interface_transfer.h>
+#include <quoin/mesh/block_splitter.h>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +14,8 @@
 #include <random>
 
 using namespace quoin;
+using quoin::test::add_curve;
+using quoin::test::add_grid;
 using quoin::test::TestNodes;
 
 namespace
@@ -90,6 +94,41 @@ TEST(InterfaceTransfer, means_of_linear_motion)
     const double middle = boundary.elements[e].middle()[0];
     EXPECT_NEAR(means[2 * e], 2. - middle, 1e-14);
     EXPECT_NEAR(means[2 * e + 1], 3. * middle, 1e-14);
+  }
+}
+
+// Edges of 1 m of triangles of degree 2, elements that end anywhere: the means
+// of a quadratic motion are those of the function.
+TEST(InterfaceTransfer, means_of_quadratic_motion)
+{
+  MeshData<2> data;
+  add_grid(data, 3, 1, "rock", 0., -1.);
+  add_curve(data, "top", 0., 0., 3., 0.);
+  data.quadratic = true;
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  std::vector<bool> wanted;
+  for (const std::string &name : mesh.face_names)
+    wanted.push_back(name == "top");
+  const TestNodes nodes(mesh);
+  const std::vector<double> ends = { 0., 0.7, 1.2, 1.5, 3. };
+  const Boundary boundary        = above(ends);
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2, 3 }, nodes,
+                                   gather_faces(*nodes, wanted));
+  EXPECT_EQ(transfer.nodes().size(), 7);
+  Eigen::VectorXd means;
+  transfer.gather(
+      [&](const unsigned int k)
+      {
+        const double x = nodes->point(transfer.nodes()[k])[0];
+        return dealii::Point<2>(x * x, 2. - x);
+      },
+      means);
+  for (unsigned int e = 0; e + 1 < ends.size(); ++e)
+  {
+    const double a = ends[e], b = ends[e + 1];
+    EXPECT_NEAR(means[2 * e], (a * a + a * b + b * b) / 3., 1e-14);
+    EXPECT_NEAR(means[2 * e + 1], 2. - 0.5 * (a + b), 1e-14);
   }
 }
 

@@ -86,8 +86,8 @@ namespace
     }
     Vector moment(const unsigned int k) const
     {
-      const auto m = solver.moments(platen(k));
-      return Vector({ m[0], m[1], m[2] });
+      const auto f = solver.resultant(platen(k).name());
+      return Vector({ f[3], f[4], f[5] });
     }
   };
 

@@ -122,21 +122,35 @@ TEST(NodalLoad, DistributionIsAFactorByPlace)
   parameters.type          = LoadType::gravity;
   parameters.components[0] = { LoadQuantity::force, TimeFunction("2", "./") };
   parameters.distribution  = SpaceTimeFunction("x + 10 * y", "./", 3);
-  NodalLoad<2> load(parameters, rectangle.nodes, { 1., 2., 3., 4. }, 1.);
-  // Nodes at (0, 0), (3, 0), (3, 1), (0, 1); of a change of masses, too.
-  for (const double mass : { 1., 5. })
+  // Two triangles from (0, 0) to (3, 1), of a mass by area of one.
+  std::vector<double> mass(4, 0.);
+  for (const auto &cell : rectangle.mesh.cells)
+    for (const unsigned int node : cell)
+      mass[node] += 0.5;
+  NodalLoad<2> load(parameters, rectangle.nodes, mass, 1.);
+  // Also of a change of masses.
+  for (const double density : { 1., 5. })
   {
-    load.set_mass({ mass, 2. * mass, 3. * mass, 4. * mass });
+    std::vector<double> changed = mass;
+    for (double &m : changed)
+      m *= density;
+    load.set_mass(changed);
     std::vector<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
     load.add_loads({ 0., 0. }, force.data());
-    const double expected[4] = { 0., 12., 78., 80. };
+    // Integrals of the distribution, and of it times x and y.
+    std::array<double, 3> sums{};
     for (unsigned int i = 0; i < 4; ++i)
     {
-      EXPECT_DOUBLE_EQ(force[i][0], mass * expected[i]);
       EXPECT_EQ(force[i][1], 0.);
+      sums[0] += force[i][0];
+      for (unsigned int d = 0; d < 2; ++d)
+        sums[d + 1] += force[i][0] * rectangle.mesh.vertices[i][d];
     }
+    EXPECT_NEAR(sums[0], 2. * density * 19.5, 1e-13 * density);
+    EXPECT_NEAR(sums[1], 2. * density * 31.5, 1e-13 * density);
+    EXPECT_NEAR(sums[2], 2. * density * 12.25, 1e-13 * density);
   }
-  // A pressure at the nodes of the foot, x times half of its length.
+  // A pressure on the foot of 3 m, with its moment about its end.
   parameters.type          = LoadType::traction;
   parameters.boundaries    = { "wall" };
   parameters.components[0] = {};
@@ -146,8 +160,8 @@ TEST(NodalLoad, DistributionIsAFactorByPlace)
                               std::vector<double>(4, 1.), 1.);
   std::vector<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
   pressure.add_loads({ 0., 0. }, force.data());
-  EXPECT_DOUBLE_EQ(force[1][1], 4.5);
-  EXPECT_EQ(force[0][1], 0.);
+  EXPECT_NEAR(force[1][1], 3., 1e-14);
+  EXPECT_NEAR(force[0][1], 1.5, 1e-14);
   EXPECT_EQ(force[2][1], 0.);
 }
 
