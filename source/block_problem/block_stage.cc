@@ -15,6 +15,17 @@ namespace quoin
     {
       return radians * 180. / dealii::numbers::PI;
     }
+
+    /** What follows blocks that go far; empty: nothing does. */
+    template <int dim>
+    std::string cure_of_small_displacements(const BlockSystem<dim> &system)
+    {
+      return dim == 3 ? ""
+             : system.implicit_solver
+                 ? "Take 'Solver = explicit' with 'Displacements = large' in "
+                   "section 'Contact'"
+                 : "Take 'Displacements = large' in section 'Contact'";
+    }
   } // namespace
 
   template <int dim>
@@ -96,6 +107,7 @@ namespace quoin
     check_cells(*system.model, state, stage.loads);
     follow_joint_motion();
     warn_of_joint_motion();
+    warn_of_unstable_beams();
     warn_of_lost_bond();
     if (const std::string what = context.loads[index].warning(); !what.empty())
       log.warning("stage ", stage.name, ": ", what);
@@ -254,6 +266,7 @@ namespace quoin
     const double diagonal = system.nodes->table().diagonal();
     if (now.turn <= absurd && now.distance <= diagonal)
       return;
+    const std::string cure = cure_of_small_displacements(system);
     fail(text_of(
         now.turn > absurd
             ? text_of("blocks that share a joint have turned by ",
@@ -264,8 +277,7 @@ namespace quoin
         ", found at time ", state.time, " s, step ", state.step,
         ": small displacements leave blocks where they are, so that nothing "
         "after the first degrees means anything. ",
-        dim == 2 ? "Take 'Displacements = large' in section 'Contact', or end "
-                 : "End ",
+        cure.empty() ? "End " : cure + ", or end ",
         "the stage before by 'End conditions'."));
   }
 
@@ -278,14 +290,16 @@ namespace quoin
         those of a column ten times as high as wide [rad]. */
     constexpr double most_turn = 5. * dealii::numbers::PI / 180.;
     const JointMotion &motion  = context.joint_motion;
+    std::string cure           = cure_of_small_displacements(system);
+    if (cure.empty())
+      cure = "End the stage before by 'End conditions'";
     if (motion.slip > most_slip)
       log.warning(
           "stage ", stage.name, ": joints have slipped by up to ",
           100. * motion.slip,
           " % of the edges that touch, but small displacements leave "
           "blocks where they are: areas and neighbours no longer hold. ",
-          dim == 2 ? "Take 'Displacements = large' in section 'Contact'."
-                   : "End the stage before by 'End conditions'.");
+          cure, ".");
     if (motion.turn > most_turn)
       log.warning("stage ", stage.name,
                   ": blocks that share a joint have "
@@ -293,7 +307,23 @@ namespace quoin
                   degrees(motion.turn),
                   " degrees against each other, but small displacements leave "
                   "blocks where they are: lever arms and contacts no longer "
-                  "hold. Take 'Displacements = large' in section 'Contact'.");
+                  "hold. ",
+                  cure, ".");
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_unstable_beams() const
+  {
+    if constexpr (dim == 2)
+      if (const Beams *beams = system.solver->loads().beams.get();
+          beams && (system.implicit_solver || stage.end != StageEnd::time))
+        for (const std::string &name : beams->unstable(state))
+          log.warning("stage ", stage.name, ": the beam '", name,
+                      "' is at the end of the stage in an equilibrium that is "
+                      "unstable: it will buckle once anything disturbs it. "
+                      "Give it an imperfection, 'Points' that are bent by some "
+                      "thousandths of its length or a small 'Line load', to "
+                      "see how much it bears.");
   }
 
   template <int dim>

@@ -200,11 +200,11 @@ namespace quoin
                                  Balance<2> &balance, const bool slopes)
   {
     std::vector<Eigen::MatrixXd> stiffness;
-    balance.beams_stand = beams->settle(
+    balance.failed_beam = beams->settle(
         { configuration.load_time, stage_start + configuration.load_time },
         committed, balance.state, applied_force.data(),
         slopes ? &stiffness : nullptr);
-    if (!balance.beams_stand)
+    if (!balance.failed_beam.empty())
       return;
     for (unsigned int b = 0; b < stiffness.size(); ++b)
       for (Eigen::Index i = 0; i < stiffness[b].rows(); ++i)
@@ -563,7 +563,7 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     // Corrections by a matrix that is singular may not be numbers.
     const bool is_finite = std::isfinite(sums[0] + sums[1]);
-    balance.unbalanced   = balance.beams_stand && is_finite
+    balance.unbalanced   = balance.failed_beam.empty() && is_finite
                                ? sums[0]
                                : std::numeric_limits<double>::infinity();
     balance.applied

@@ -675,10 +675,9 @@ namespace quoin
         const double path = std::abs(balance.path);
         // The factor of a pattern whose loads no longer move what is controlled
         // may grow until blocks give way elsewhere.
-        const double went
-            = acting.pattern && !jumps
-                  ? largest_move(state.nodes, configuration.nodes)
-                  : 0.;
+        const double went = acting.pattern && !jumps
+                                ? largest_move(state.nodes, configuration.nodes)
+                                : 0.;
         // Soft joints slip far once they lose strength, whatever the drag.
         if (std::max(path, went) <= most
             || (stage.safety && jumps && path > at_once_share * refused))
@@ -842,7 +841,15 @@ namespace quoin
   void ImplicitSolver<dim>::fail(const State<dim> &state, const double tried,
                                  const bool jumped) const
   {
-    const std::string where = worst_place(model, *dof_map, balance, set_names);
+    const std::string why
+        = balance.failed_beam.empty()
+              ? "Forces are out of balance most "
+                    + worst_place(model, *dof_map, balance, set_names)
+                    + ". The model may have reached its limit load there"
+              : "The beam '" + balance.failed_beam
+                    + "' found none with the blocks beside it. It may have "
+                      "reached its limit load, by plastic hinges or by "
+                      "buckling";
     std::ostringstream message;
     message << "no equilibrium was found beyond "
             << (state.template get<ImplicitState>().released < 1.
@@ -854,15 +861,15 @@ namespace quoin
             << (jumped ? ", and the model kept moving when it was released "
                          "against a viscous drag, after steps were reduced to "
                        : ", although steps were reduced to ")
-            << number_text(tried)
-            << " of the stage. Forces are out of balance most " << where
-            << ". The model may have reached its limit load there"
+            << number_text(tried) << " of the stage. " << why
             << (parameters.path == PathFollowing::never
                     ? ": 'Path following = automatic' in section 'Implicit' "
                       "could follow it down"
                     : "")
             << "; otherwise lower 'First step', raise 'Maximum "
-               "iterations', or look at the strengths of those joints"
+               "iterations', or look at the strengths "
+            << (balance.failed_beam.empty() ? "of those joints"
+                                            : "and loads of that beam")
             << ". The last equilibrium is kept.";
     throw ModelFailure(message.str());
   }

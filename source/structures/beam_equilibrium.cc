@@ -5,6 +5,8 @@
 #include <quoin/joints/point_arrays.h>
 #include <quoin/structures/beam_equilibrium.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -380,5 +382,18 @@ namespace quoin
       *reaction.stiffness       = condensed(beam, own, points);
     }
     return true;
+  }
+
+  bool is_unstable(const Beam &beam, const State<2> &state,
+                   const BeamState &now)
+  {
+    /** Eigenvalues smaller than that by the largest may be rounding. */
+    constexpr double rounding = 1e-11;
+    std::vector<PointTangent> points;
+    // Friction in the interface makes it unsymmetric.
+    const Eigen::VectorXcd values
+        = stiffness(beam, state, now, now, points).eigenvalues();
+    const double largest = values.cwiseAbs().maxCoeff();
+    return values.real().minCoeff() < -rounding * largest;
   }
 } // namespace quoin

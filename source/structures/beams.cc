@@ -190,9 +190,9 @@ namespace quoin
     energies.joint += state.get<BeamState>().stored_joint;
   }
 
-  bool Beams::settle(const TimePoint &time, const State<2> &committed,
-                     State<2> &state, dealii::Tensor<1, 2> *block_force,
-                     std::vector<Eigen::MatrixXd> *stiffness) const
+  std::string Beams::settle(const TimePoint &time, const State<2> &committed,
+                            State<2> &state, dealii::Tensor<1, 2> *block_force,
+                            std::vector<Eigen::MatrixXd> *stiffness) const
   {
     BeamState &now = state.get<BeamState>();
     find_block_positions(state, now);
@@ -208,11 +208,21 @@ namespace quoin
               beams[b], beams[b].line.loads(time, gravity(time)),
               node_map.table().diagonal(), committed, now, energy,
               { by_point.data(), stiffness ? &(*stiffness)[b] : nullptr }))
-        return false;
+        return beams[b].line.given.name;
     add_block_forces(by_point, block_force);
     if (is_first_rank)
       state.energy += energy;
-    return true;
+    return {};
+  }
+
+  std::vector<std::string> Beams::unstable(const State<2> &state) const
+  {
+    const BeamState &now = state.get<BeamState>();
+    std::vector<std::string> result;
+    for (unsigned int b = 0; b < beams.size(); ++b)
+      if (now.placed[b] && is_unstable(beams[b], state, now))
+        result.push_back(beams[b].line.given.name);
+    return result;
   }
 
   void Beams::find_block_positions(const State<2> &state, BeamState &now) const

@@ -159,6 +159,8 @@ namespace quoin
   private:
     /** Warns of motions of joints for which displacements are not small. */
     void warn_of_joint_motion() const;
+    /** Warns of beams that would buckle. */
+    void warn_of_unstable_beams() const;
     /** Warns if joints lost their bond while loads came on; collective. */
     void warn_of_lost_bond() const;
     /** Records the loads of the row for @p time [s]. */

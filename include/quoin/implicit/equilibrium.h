@@ -43,9 +43,9 @@ namespace quoin
         origin [N m], of this rank. */
     Resultant<2> far_field_force{};
 
-    /** Whether beams are in equilibrium with the blocks; if not, the
-        unbalanced force is infinite. */
-    bool beams_stand = true;
+    /** A beam that is in no equilibrium with the blocks; the unbalanced force
+        is then infinite. Empty: none. */
+    std::string failed_beam;
 
     /** What the controlled displacement of a load pattern lacks [m]. */
     double lacking = 0.;

@@ -37,6 +37,14 @@ namespace quoin
                         double model_size, const State<2> &state,
                         BeamState &beams, EnergyAccounts &energy,
                         const BeamReaction &reaction);
+
+  /**
+   * Whether @p beam, where it is in equilibrium, would leave that if anything
+   * disturbed it while blocks and loads stay, as a strut beyond Euler's load:
+   * whether its stiffness, with hinges as they are, has a negative eigenvalue.
+   */
+  bool is_unstable(const Beam &beam, const State<2> &state,
+                   const BeamState &now);
 } // namespace quoin
 
 #endif

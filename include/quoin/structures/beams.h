@@ -65,11 +65,15 @@ namespace quoin
      * adds forces to owned nodes of blocks, updates BeamState and books
      * dissipation and the work of loads in State::energy. @p stiffness: null,
      * or that of blocks at the interface of each beam, see BeamReaction.
-     * Returns false if there is no equilibrium. Collective.
+     * Returns the name of a beam that has no equilibrium, or nothing.
+     * Collective.
      */
-    bool settle(const TimePoint &time, const State<2> &committed,
-                State<2> &state, dealii::Tensor<1, 2> *block_force,
-                std::vector<Eigen::MatrixXd> *stiffness) const;
+    std::string settle(const TimePoint &time, const State<2> &committed,
+                       State<2> &state, dealii::Tensor<1, 2> *block_force,
+                       std::vector<Eigen::MatrixXd> *stiffness) const;
+
+    /** Names of the beams that is_unstable() says of @p state. */
+    std::vector<std::string> unstable(const State<2> &state) const;
 
     const std::vector<Beam> &all() const
     {

@@ -250,8 +250,9 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
         = [&](State<2> &now, std::vector<Eigen::MatrixXd> *stiffness)
     {
       AlignedArray<dealii::Tensor<1, 2>> force(4, dealii::Tensor<1, 2>());
-      EXPECT_TRUE(
-          model.beams->settle({ 0., 0. }, start, now, force.data(), stiffness));
+      EXPECT_EQ(
+          model.beams->settle({ 0., 0. }, start, now, force.data(), stiffness),
+          "");
       return force;
     };
     State<2> now      = start;
