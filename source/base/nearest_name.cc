@@ -3,6 +3,8 @@
 
 #include <quoin/base/nearest_name.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -34,6 +36,27 @@ namespace quoin
     return sorted.empty() || edit_distance(wanted, sorted.front()) > most
                ? ""
                : sorted.front();
+  }
+
+  std::vector<std::string> near_names(const std::string &wanted,
+                                      const std::vector<std::string> &names)
+  {
+    constexpr std::size_t most = 6;
+    const auto words = dealii::Utilities::split_string_list(wanted, ' ');
+    auto sorted      = nearest_first(wanted, names);
+    std::stable_partition(sorted.begin(), sorted.end(),
+                          [&](const std::string &name)
+                          {
+                            const std::string text = ' ' + name + ' ';
+                            return std::all_of(words.begin(), words.end(),
+                                               [&](const std::string &word) {
+                                                 return text.find(' ' + word
+                                                                  + ' ')
+                                                        != std::string::npos;
+                                               });
+                          });
+    sorted.resize(std::min(most, sorted.size()));
+    return sorted;
   }
 
   std::vector<std::string> nearest_first(const std::string &wanted,

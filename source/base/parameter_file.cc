@@ -157,6 +157,9 @@ namespace quoin
       return inner->value("pattern_description", "");
     }
 
+    /** Values of an entry above which a complaint lists the near ones alone. */
+    constexpr unsigned int most_listed = 20;
+
     /** What is wrong with a line, and advice. */
     struct Complaint
     {
@@ -224,8 +227,14 @@ namespace quoin
         const auto words = dealii::Utilities::split_string_list(
             pattern.substr(begin.size(), pattern.find(']') - begin.size()),
             '|');
-        return complaint(given + "must be one of: " + known_names(words) + ".",
-                         nearest_name(value, words));
+        if (words.size() <= most_listed)
+          return complaint(given + "must be one of: " + known_names(words)
+                               + ".",
+                           nearest_name(value, words));
+        return { given + "is none of the " + std::to_string(words.size())
+                     + " known values, which 'quoin --print-parameters' lists.",
+                 "Near ones are: " + known_names(near_names(value, words))
+                     + ". " };
       }
       if (const std::string words = number_words(pattern);
           !is_section && !words.empty())

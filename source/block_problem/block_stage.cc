@@ -188,11 +188,18 @@ namespace quoin
     LoadRecord &record           = context.loads[index];
     const StageLoads<dim> &loads = system.solver->stage_loads();
     if (loads.pattern)
-      record.add_factor(state.template get<LoadPatternState>().factor,
-                        controlled, time);
-    // In equilibrium supports take all.
+    {
+      const double factor = state.template get<LoadPatternState>().factor;
+      record.add_factor(factor, controlled, time);
+      if (system.explicit_solver)
+        record.add_work(factor, loads.pattern->unit_work(state.nodes),
+                        system.solver->energies().damping);
+    }
+    // In equilibrium supports take all. While loads of a stage that ends at
+    // rest grow they are none that the model has to bear.
     if (stage.is_dynamic() || !system.explicit_solver
-        || loads.constraints.empty())
+        || loads.constraints.empty()
+        || (stage.end == StageEnd::static_ratio && load_time < loads.growth()))
       return;
     record.add_forces(force_balance(system, state, load_time), time,
                       stage.end == StageEnd::time);

@@ -26,6 +26,8 @@ namespace quoin
     /** Windows of the stage whose means are compared: that many have room, one
         behind the other. */
     constexpr unsigned int n_windows = 10;
+    /** Share of the work of a load pattern that damping may take. */
+    constexpr double most_damped = 0.05;
   } // namespace
 
   void LoadRecord::add_factor(const double factor, const double displacement,
@@ -33,6 +35,20 @@ namespace quoin
   {
     if (peak.time < 0. || std::abs(factor) > std::abs(peak.factor))
       peak = { factor, displacement, time };
+  }
+
+  void LoadRecord::add_work(const double factor, const double unit_work,
+                            const double damped)
+  {
+    if (pattern.n_rows++ > 0)
+    {
+      pattern.work
+          += 0.5 * (pattern.factor + factor) * (unit_work - pattern.unit_work);
+      pattern.loss += damped - pattern.damped;
+    }
+    pattern.factor    = factor;
+    pattern.unit_work = unit_work;
+    pattern.damped    = damped;
   }
 
   void LoadRecord::add_forces(const ForceBalance &forces, const double time,
@@ -142,6 +158,13 @@ namespace quoin
     if (!text.empty())
       text += " Load more slowly; beyond a limit load control a displacement, "
               "by 'Load pattern'.";
+    if (damped_share() > most_damped)
+      text += text_of(
+          text.empty() ? "" : " ", "damping took ", 100. * damped_share(),
+          " % of the work of the load pattern, so that its factor is larger by "
+          "about as much than what the model bears at rest. Push more slowly, "
+          "take 'Damping = Rayleigh' with a stiffness coefficient, or 'Solver "
+          "= implicit', and compare.");
     return text;
   }
 
@@ -152,6 +175,8 @@ namespace quoin
           = { { "factor", peak.factor },
               { "controlled displacement [m]", peak.displacement },
               { "time [s]", peak.time } };
+    if (pattern.n_rows > 1)
+      stage["damping by work of the load pattern"] = damped_share();
     for (unsigned int d = 0; d < 3; ++d)
       if (const auto found = lack(d))
         stage["supports do not take the loads"][axis_names[d]]

@@ -278,7 +278,7 @@ namespace quoin
     set_dashpots();
     scale_masses(stage, state.time, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
-    this->ramp_gravity(previous, automatic_ramp());
+    this->ramp_loads(previous, automatic_ramp());
     collect_operators(previous);
     for (const auto &constraint : all.constraints)
       if (!all.acts_in(*constraint, stage))
@@ -311,7 +311,7 @@ namespace quoin
     set_dashpots();
     scale_masses(stage, state.stage_start, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
-    this->ramp_gravity(previous, automatic_ramp());
+    this->ramp_loads(previous, automatic_ramp());
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->resume_stage(state);
     state = saved;

@@ -93,26 +93,30 @@ namespace quoin
   }
 
   template <int dim>
-  void Solver<dim>::ramp_gravity(const StageParameters *previous,
-                                 const double automatic)
+  void Solver<dim>::ramp_loads(const StageParameters *previous,
+                               const double automatic)
   {
-    const auto begins = [&](const NodalLoad<dim> &load)
+    const auto begins = [&](const std::string &load)
     {
-      return names_load(stage, load.name())
-             && !(previous && names_load(*previous, load.name()));
+      return names_load(stage, load)
+             && !(previous && names_load(*previous, load));
     };
     double ramp = 0.;
     for (NodalLoad<dim> &load : all.nodal)
       if (load.is_weight())
       {
-        load.begin_stage(begins(load), automatic);
+        load.begin_stage(begins(load.name()), automatic);
         ramp = std::max(ramp, load.ramp());
       }
     // Pressure that is in joints before the weight which closes them throws
-    // blocks up.
+    // blocks up, and a thrust makes them slip.
+    const double with_it = stage.end == StageEnd::static_ratio ? ramp : 0.;
     for (NodalLoad<dim> &load : all.nodal)
-      if (load.is_in_joints())
-        load.begin_stage(begins(load), ramp);
+      if (!load.is_weight())
+        load.begin_stage(begins(load.name()),
+                         load.is_in_joints() ? ramp : with_it);
+    for (MotionConstraint<dim> *constraint : acting.constraints)
+      constraint->grow_forces(begins(constraint->name()) ? with_it : 0.);
   }
 
   template <int dim>

@@ -134,6 +134,7 @@ namespace quoin
         model, *dof_map, operators_with(acting.nodal), path_sets, stage_start,
         all.far.elastostatic_acts ? all.far.elastostatic : nullptr,
         acting.pattern.get(), all.beams.get());
+    prediction = std::make_unique<MotionPrediction<dim>>(model, *dof_map);
     // Multigrid gives no factor.
     linear_solver = std::make_unique<LinearSolver<dim>>(
         acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
@@ -182,7 +183,7 @@ namespace quoin
                                         State<dim> &state)
   {
     this->activate(new_stage, state);
-    this->ramp_gravity(previous, 0.);
+    this->ramp_loads(previous, 0.);
     prepare(state);
     if constexpr (dim == 2)
     {
@@ -224,7 +225,7 @@ namespace quoin
       if (all.beams)
         all.beams->resume_stage(state);
     }
-    this->ramp_gravity(previous, 0.);
+    this->ramp_loads(previous, 0.);
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->set_mass(model.mass());
     if (state.template get<ImplicitState>().jumps)
@@ -306,25 +307,11 @@ namespace quoin
     time_shares.measure(
         assembly_phase, [&]()
         { equilibrium->find_forces(state, configuration, broken, start); });
-    correction = 0.;
-    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (dof_map->is_free(i, d))
-          correction(dof_map->dof(i, d)) = now.moved[std::size_t(dim) * i + d];
-    for (unsigned int b = 0; b < dof_map->bodies().size(); ++b)
-    {
-      const RigidBody<dim> &body = dof_map->bodies()[b];
-      const auto moved = kept_values(dof_map->bodies(), b, now.moved_platens,
-                                     now.moved_blocks);
-      for (unsigned int d = 0; body.counts && d < n_body_motions<dim>; ++d)
-        if (!body.given[d])
-          correction(body.first + d) = moved[d];
-    }
-    correction.compress(dealii::VectorOperation::insert);
     const double went
         = now.jumps ? now.drag_step : target.load_time - state.load_time;
     Configuration<dim> ahead = configuration;
-    dof_map->move(correction, went / now.moved_for, target.load_time, ahead);
+    prediction->move(now, went / now.moved_for, target.load_time, correction,
+                     ahead);
     if (now.jumps)
     {
       // The motion may be coming to rest, or not have begun.
@@ -345,21 +332,27 @@ namespace quoin
   {
     ImplicitState &now = state.template get<ImplicitState>();
     now.moved_for      = 0.;
-    if (now.released < 1.)
+    // What broke does not break again.
+    if (now.released < 1. || some_broke)
       return;
     const Configuration<dim> from = configuration_of(dof_map->bodies(), state);
-    now.moved_for
-        = now.jumps ? now.drag_step : configuration.load_time - from.load_time;
-    now.moved.clear();
-    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        now.moved.push_back(configuration.nodes[i].u[d] - from.nodes[i].u[d]);
-    BodyValues<dim> turns = configuration.bodies;
-    for (unsigned int b = 0; b < turns.size(); ++b)
-      for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
-        turns[b][d] -= from.bodies[b][d];
-    keep_values(dof_map->bodies(), turns, model.rigid_blocks().n_blocks(),
-                now.moved_platens, now.moved_blocks);
+    prediction->remember(from, configuration, start, balance,
+                         now.jumps ? now.drag_step
+                                   : configuration.load_time - from.load_time,
+                         now);
+  }
+
+  template <int dim>
+  double
+  ImplicitSolver<dim>::error_of_prediction(const State<dim> &state,
+                                           const StepTarget &target) const
+  {
+    const ImplicitState &now = state.template get<ImplicitState>();
+    if (!is_predicted || now.jumps)
+      return 0.;
+    const double share = (target.load_time - state.load_time) / now.moved_for;
+    return std::max(balance.ratio(),
+                    prediction->error_of_reactions(now, share, start, balance));
   }
 
   template <int dim>
@@ -504,9 +497,7 @@ namespace quoin
       ratios.push_back(ratio);
       if (iteration == 0)
       {
-        prediction_error
-            = is_predicted && !state.template get<ImplicitState>().jumps ? ratio
-                                                                         : 0.;
+        prediction_error = error_of_prediction(state, target);
         if (own_steps.is_too_long(state, target, prediction_error))
           return Outcome::failed;
       }
@@ -587,6 +578,7 @@ namespace quoin
                     balance.state.template get<JointHistoryOf<dim>>())
                  >= 0.7 * largest)
         broken[p] = 1;
+    some_broke = true;
     return true;
   }
 
@@ -597,6 +589,7 @@ namespace quoin
   {
     configuration = configuration_of(dof_map->bodies(), state);
     broken.assign(model.joints().n_points(), 0);
+    some_broke = false;
     iteration  = 0;
     last_share = 1.;
     if constexpr (dim == 2)

@@ -127,9 +127,10 @@ namespace quoin
   void ImplicitSteps::end_jump(const ImplicitState &before,
                                ImplicitState &now) const
   {
-    now.jumps     = false;
-    now.moved_for = 0.;
-    now.path_step = 0.;
+    now.jumps      = false;
+    now.after_jump = true;
+    now.moved_for  = 0.;
+    now.path_step  = 0.;
     if (before.released < 1.)
     {
       now.last_step = now.released - before.released;
@@ -138,9 +139,12 @@ namespace quoin
         begin_loads(now);
       return;
     }
-    // After a short jump the equilibrium is the next one on the same path.
+    // After a short jump the equilibrium is the next one on the same path. One
+    // that begins where another ended is one of many, by which a mechanism goes
+    // on.
     const double next
-        = now.last_step * (is_short(now) ? most_growth : jump_share);
+        = now.last_step
+          * (is_short(now) || before.after_jump ? most_growth : jump_share);
     now.last_step = std::clamp(next, 0.01 * parameters.first_step,
                                parameters.largest_step);
     now.step      = now.last_step;
@@ -216,6 +220,7 @@ namespace quoin
                             const double path, State<dim> &state) const
   {
     ImplicitState &now = state.template get<ImplicitState>();
+    now.after_jump     = false;
     const double went
         = before.template get<ImplicitState>().released < 1.
               ? now.released - before.template get<ImplicitState>().released

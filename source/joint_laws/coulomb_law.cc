@@ -95,7 +95,9 @@ namespace quoin
     law.dilation = tangent_of_degrees(dilation_angle);
     entries.nonnegative("Critical shear displacement",
                         law.critical_shear_displacement,
-                        "slip beyond which the joint no longer dilates", "m");
+                        "slip, its elastic part included, beyond which the "
+                        "joint no longer dilates",
+                        "m");
     return law;
   }
 

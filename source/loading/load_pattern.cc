@@ -130,6 +130,15 @@ namespace quoin
   }
 
   template <int dim>
+  double
+  LoadPattern<dim>::unit_work(const AlignedArray<NodeRecord<dim>> &nodes) const
+  {
+    return scale
+           * dealii::Utilities::MPI::sum(sum_of(mean, nodes),
+                                         model.nodes().communicator());
+  }
+
+  template <int dim>
   double LoadPattern<dim>::largest_target() const
   {
     double largest = 0.;

@@ -79,6 +79,15 @@ namespace quoin
   }
 
   template <int dim>
+  double StageLoads<dim>::growth() const
+  {
+    double last = release.changes() ? release.duration() : 0.;
+    for (const NodalLoad<dim> *load : nodal)
+      last = std::max(last, load->ramp());
+    return last;
+  }
+
+  template <int dim>
   void StageLoads<dim>::check_start(const State<dim> &state) const
   {
     constexpr std::array<const char *, 3> names

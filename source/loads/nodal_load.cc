@@ -26,12 +26,6 @@ namespace quoin
     /** Bounds of its relaxation. */
     constexpr double least_relaxation = 0.05, most_relaxation = 4.;
 
-    /** Share of a load that grows over @p duration [s]; 0: it is there. */
-    double grown_share(const double time, const double duration)
-    {
-      return duration > 0. ? half_cosine(time, duration) : 1.;
-    }
-
     /** Throws an InputError if one of @p values that a distribution has given
         is no finite number on any rank. */
     void check_distribution(const std::string &load,
@@ -194,7 +188,7 @@ namespace quoin
       acts_everywhere(is_gravity && parameters.groups.empty()
                       && !parameters.distribution),
       components(parameters.components), pressure(parameters.pressure),
-      given_ramp(is_gravity ? parameters.ramp_duration : 0.)
+      given_ramp(is_gravity ? parameters.ramp_duration : -1.)
   {
     if (is_gravity)
     {
@@ -213,7 +207,6 @@ namespace quoin
         && has_joints(node_map, parameters.boundaries))
     {
       acts_in_joints = true;
-      given_ramp     = -1.;
       communicator   = node_map.communicator();
       for (const JointNodes<dim> &joint : node_map.faces().joints)
         if (thickness[joint.groups[0]] != thickness[joint.groups[1]]
@@ -429,7 +422,7 @@ namespace quoin
       for (const double centre : shape->at(time))
         place = 0.5 * place + centre;
     const auto [x, y, z] = component_values(components, time);
-    const double share   = grown_share(time.stage, ramp_duration);
+    const double share   = half_cosine(time.stage, ramp_duration);
     return { share * x, share * y, share * z,
              pressure.quantity == LoadQuantity::free
                  ? 0.
@@ -444,7 +437,7 @@ namespace quoin
     if (field)
     {
       const auto &forces = field->forces(time);
-      const double share = grown_share(time.stage, ramp_duration);
+      const double share = half_cosine(time.stage, ramp_duration);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           force[nodes[i]][d] += share * forces[i][d];
@@ -471,7 +464,7 @@ namespace quoin
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           power += forces[i][d] * velocity[nodes[i]][d];
-      return grown_share(time.stage, ramp_duration) * power;
+      return half_cosine(time.stage, ramp_duration) * power;
     }
     // Several sums, none of which waits for the others.
     constexpr unsigned int n_sums = 4;

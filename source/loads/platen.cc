@@ -247,12 +247,13 @@ namespace quoin
                  s0     = std::sin(platen.displacement[2]);
     const dealii::Tensor<1, 2> mass_arm(
         { c0 * offset[0] - s0 * offset[1], s0 * offset[0] + c0 * offset[1] });
+    const double share = half_cosine(step.begin.stage, force_ramp);
     BodyStep<3, 2> body;
     for (unsigned int d = 0; d < 3; ++d)
     {
       body.driven[d]     = driven(d);
       body.given[d]      = driven(d) ? driven_velocity(d, step, platen)
-                                     : components[d].value(step.begin);
+                                     : components[d].value(step.begin) * share;
       velocity_before[d] = platen.velocity[d];
     }
     const std::array<double, 3> nodal = resultant(captured, platen);

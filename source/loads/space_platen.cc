@@ -262,12 +262,13 @@ namespace quoin
     const Vector spin        = half_of(platen.velocity, 3);
     const Six nodal          = resultant(captured, platen);
     velocity_before          = platen.velocity;
+    const double share       = half_cosine(step.begin.stage, force_ramp);
     BodyStep<6, 3> body;
     for (unsigned int d = 0; d < 6; ++d)
     {
       body.driven[d] = driven(d);
       body.given[d]  = driven(d) ? driven_velocity(d, step, platen)
-                                 : component(d).value(step.begin);
+                                 : component(d).value(step.begin) * share;
     }
     // Euler's equations: the spin of its axes takes a moment, and that of its
     // centre of mass a force, of the mean of the spins before and after, which

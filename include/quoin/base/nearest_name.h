@@ -22,6 +22,11 @@ namespace quoin
   std::string nearest_name(const std::string &wanted,
                            const std::vector<std::string> &names);
 
+  /** At most six of @p names that may have been meant by @p wanted: those that
+      have all of its words, then the nearest ones. */
+  std::vector<std::string> near_names(const std::string &wanted,
+                                      const std::vector<std::string> &names);
+
   /** known_names() for a message that @p wanted is none of @p items; ". The
      nearest one is 'b'" follows if that was likely meant. */
   template <typename Items, typename NameOf>

@@ -29,7 +29,8 @@ namespace quoin
 
   /**
    * What the rows of a stage have shown of its loads: the largest factor of a
-   * load pattern, and whether the supports carried the applied loads.
+   * load pattern and the share of damping in its work, and whether the supports
+   * carried the applied loads.
    */
   class LoadRecord
   {
@@ -44,6 +45,9 @@ namespace quoin
 
     /** Adds a row with the @p factor of a load pattern. */
     void add_factor(double factor, double displacement, double time);
+    /** Adds to it that the loads with the factor 1 have done @p unit_work, and
+        damping has taken @p damped, both from any reference on [J]. */
+    void add_work(double factor, double unit_work, double damped);
 
     /** Adds a row at @p time [s]; @p to_means: also to the means, which say
         nothing where a stage seeks an equilibrium and loads pass on the way. */
@@ -57,7 +61,8 @@ namespace quoin
      * that the largest means over a tenth of the rows do so, as vibration may
      * raise the force of supports for a moment. A model that vibrates about a
      * balance passes, as its supports take more than is applied, too; so do
-     * loads that balance each other. Empty: nothing.
+     * loads that balance each other. Or that damping took more than 5 % of the
+     * work of a load pattern. Empty: nothing.
      */
     std::string warning() const;
 
@@ -71,6 +76,8 @@ namespace quoin
       for (Axis &axis : axes)
         archive &axis.lowest &axis.highest &axis.most_up &axis.most_down &axis
             .applied &axis.time &axis.size;
+      archive &pattern.factor &pattern.unit_work &pattern.damped &pattern
+          .work &pattern.loss &pattern.n_rows;
       archive &means &sum &n_summed &n_per_mean;
     }
 
@@ -88,6 +95,15 @@ namespace quoin
 
       /** Largest applied force that supports carried, in its direction [N]. */
       double taken() const;
+    };
+
+    /** A load pattern: its last row, and since the first one its work and what
+        damping took [J]. */
+    struct PatternWork
+    {
+      double factor = 0., unit_work = 0., damped = 0.;
+      double work = 0., loss = 0.;
+      unsigned int n_rows = 0;
     };
 
     /** What supports lack of the largest applied force. */
@@ -108,7 +124,14 @@ namespace quoin
      */
     static constexpr unsigned int n_numbers = 7;
 
+    /** What damping took of the work of a load pattern [-]. */
+    double damped_share() const
+    {
+      return pattern.work > 0. ? pattern.loss / pattern.work : 0.;
+    }
+
     Peak peak;
+    PatternWork pattern;
     std::array<Axis, 3> axes;
     /** Means of equally many rows, one after the other, and the sum of the rows
         behind them. */

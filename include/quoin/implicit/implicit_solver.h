@@ -11,6 +11,7 @@
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/implicit/linear_solver.h>
 #include <quoin/implicit/implicit_steps.h>
+#include <quoin/implicit/motion_prediction.h>
 
 #include <memory>
 #include <string>
@@ -177,9 +178,14 @@ namespace quoin
         by, or it is no better. */
     bool predict(const State<dim> &state, const StepTarget &target,
                  Configuration<dim> &configuration);
-    /** Keeps the motion from @p state to @p configuration for predict(). */
+    /** Keeps the motion from @p state to @p configuration for predict(), if
+        the next step may go on like that. */
     void remember_motion(const Configuration<dim> &configuration,
                          State<dim> &state) const;
+    /** Error of the prediction of a load step to @p target, see
+        ImplicitSteps [-]. */
+    double error_of_prediction(const State<dim> &state,
+                               const StepTarget &target) const;
     /** Finds a correction and its share of the advance; false: none. */
     bool find_correction(const StepTarget &target,
                          const Configuration<dim> &configuration, bool is_first,
@@ -208,6 +214,7 @@ namespace quoin
     std::unique_ptr<DofMap<dim>> dof_map;
     std::unique_ptr<Equilibrium<dim>> equilibrium;
     std::unique_ptr<LinearSolver<dim>> linear_solver;
+    std::unique_ptr<MotionPrediction<dim>> prediction;
 
     State<dim> last_equilibrium; /**< state before the current step or jump */
     Balance<dim> start;          /**< balance at the last equilibrium */
@@ -215,13 +222,14 @@ namespace quoin
     Balance<dim> trial;          /**< balance of a trial of the line search */
     Advance advance;
     std::vector<std::uint8_t> broken; /**< joint points, in this step */
+    bool some_broke = false;          /**< of any rank */
     Slopes slopes;
     DofVector residual, correction, advanced;
 
     unsigned int attempt = 0, iteration = 0;
     bool is_predicted = false; /**< whether iterations began at a prediction */
-    /** Unbalanced by applied forces where a load step was predicted; 0: it was
-        not [-]. */
+    /** Of a load step that was predicted, see ImplicitSteps; 0: it was not [-].
+     */
     double prediction_error = 0.;
     double last_share       = 1.; /**< last fraction of the line search */
     ImplicitRecord done;

@@ -27,6 +27,8 @@ namespace quoin
         advanced in it; zero: do not predict by it. */
     std::vector<double> moved, moved_platens, moved_blocks;
     double moved_for = 0.;
+    /** By how much the forces changed in it that hold owned nodes [N]. */
+    std::vector<double> held_by;
     double released  = 1.; /**< released share of them [-] */
     double step      = 0.; /**< next step, share of the stage [-] */
     double last_step = 0.; /**< last converged load step, share [-] */
@@ -46,6 +48,7 @@ namespace quoin
     double drag_path     = 0.; /**< path's length in the jump so far [m] */
     unsigned int n_drag  = 0;  /**< steps of the jump so far */
     double jump_loss = 0.; /**< dissipated by drag since the jump began [J] */
+    bool after_jump  = false; /**< whether the last equilibrium ended one */
     /** Archived State of the equilibrium before a jump, in checkpoints within
      * it. */
     std::string before_jump;
@@ -57,12 +60,13 @@ namespace quoin
       visitor.same(held_platens);
       visitor.own(held_blocks, 3, RigidBlockStates::slice_name);
       visitor.owned_nodes(moved, dim);
+      visitor.owned_nodes(held_by, dim);
       visitor.same(moved_platens);
       visitor.own(moved_blocks, 3, RigidBlockStates::slice_name);
       visitor.same(dim, moved_for, released, step, last_step, follows_path,
                    path_step, path_length, farthest, ahead, jumps, jump_time,
                    jump_released, drag_step, drag_time, drag_path, n_drag,
-                   jump_loss, before_jump);
+                   jump_loss, after_jump, before_jump);
     }
 
     template <typename Archive>

@@ -112,6 +112,9 @@ namespace quoin
 
     /** The controlled displacement, from the reference on [m]; collective. */
     double displacement(const AlignedArray<NodeRecord<dim>> &nodes) const;
+    /** Work of the loads with the factor 1 from the reference on [J];
+        collective. */
+    double unit_work(const AlignedArray<NodeRecord<dim>> &nodes) const;
     /** Prescribed value at @p load_time [s], from the start of the stage on
      * [m]. */
     double target(const double load_time) const

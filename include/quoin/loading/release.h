@@ -37,6 +37,11 @@ namespace quoin
     /** The ramp s(@p load_time) [-]. */
     double share(double load_time) const;
 
+    /** Duration of the release [s]. */
+    double duration() const
+    {
+      return ramp_duration;
+    }
     const char *kind() const override
     {
       return "loads";

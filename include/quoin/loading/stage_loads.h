@@ -41,6 +41,9 @@ namespace quoin
      */
     bool change(const State<dim> &state, double duration) const;
 
+    /** When those that grow or are released by themselves have done so [s]. */
+    double growth() const;
+
     /** Throws an InputError about loads that would begin with a jump. */
     void check_start(const State<dim> &state) const;
     /** Throws a RunError that names a load if it is not finite at @p load_time

@@ -187,6 +187,12 @@ namespace quoin
     {
     }
 
+    /** Forces that it has as functions of time grow by half a cosine over
+        @p duration [s] from the start of the stage on; 0: they are there. */
+    virtual void grow_forces(const double /*duration*/)
+    {
+    }
+
     /** Called instead when a run is resumed within a stage. */
     virtual void resume_stage(const State<dim> &)
     {

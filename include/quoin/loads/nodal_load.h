@@ -64,9 +64,8 @@ namespace quoin
       return crack != nullptr;
     }
 
-    /** Gravity, or a pressure in joints, that @p begins in the stage grows by
-        half a cosine, over a duration that is given or @p automatic [s]; 0: it
-        is there at once. */
+    /** A load that @p begins in the stage grows by half a cosine, over a
+        duration that is given or @p automatic [s]; 0: it is there at once. */
     void begin_stage(const bool begins, const double automatic)
     {
       ramp_duration = !begins ? 0. : given_ramp >= 0. ? given_ramp : automatic;

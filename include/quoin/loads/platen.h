@@ -67,6 +67,10 @@ namespace quoin
                   double extra_spin = 0.) override;
     void rest(State<2> &state) override;
     void begin_stage(State<2> &state, bool continues) override;
+    void grow_forces(const double duration) override
+    {
+      force_ramp = duration;
+    }
     void resume_stage(const State<2> &state) override;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode<2>> &captured,
@@ -119,7 +123,7 @@ namespace quoin
     /** Forces on the platen in the last step by its drive and damping, and the
         velocity before it. */
     std::array<double, 3> drive{}, damping{}, velocity_before{};
-    double last_unbalanced = 0.;
+    double last_unbalanced = 0., force_ramp = 0.;
   };
 } // namespace quoin
 

@@ -66,6 +66,10 @@ namespace quoin
                   double extra_spin = 0.) override;
     void rest(State<3> &state) override;
     void begin_stage(State<3> &state, bool continues) override;
+    void grow_forces(const double duration) override
+    {
+      force_ramp = duration;
+    }
     void resume_stage(const State<3> &state) override;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode<3>> &captured,
@@ -123,7 +127,7 @@ namespace quoin
     /** Forces and moments on the platen in the last step by its drive and
         damping, and the velocity before it. */
     Six drive{}, damping{}, velocity_before{};
-    double last_unbalanced = 0.;
+    double last_unbalanced = 0., force_ramp = 0.;
   };
 
   /** A platen of a model. */
