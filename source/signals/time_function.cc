@@ -76,7 +76,7 @@ namespace quoin
 
   double half_cosine(const double time, const double duration)
   {
-    return time < duration
+    return duration > 0. && time < duration
                ? 0.5 * (1. - std::cos(constants::pi * time / duration))
                : 1.;
   }

@@ -16,8 +16,8 @@ namespace quoin
   /** Time in a stage after which loads are taken as constant [s]. */
   constexpr double late_time = 1e9;
 
-  /** Half a cosine from 0 at @p time 0 to 1 at @p duration [s], and 1 beyond.
-   */
+  /** Half a cosine from 0 at @p time 0 to 1 at @p duration [s], and 1 beyond; 1
+      without duration. */
   double half_cosine(double time, double duration);
 
   /**

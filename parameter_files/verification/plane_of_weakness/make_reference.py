@@ -24,3 +24,11 @@ for beta in (40, 50, 60, 85):
     np.savetxt(os.path.join(HERE, "reference_%d.csv" % beta),
                [[0, 0], [END, -WIDTH * min(joint, rock)]], delimiter=",",
                fmt="%.9g", comments="", header="time [s],force [N]")
+
+# A brittle joint at 60 degrees, unconfined, that has slipped on with its residual
+# cohesion and friction.
+b, tan, thickness = np.radians(60), np.tan(np.radians(25)), 0.2
+residual = 2 * 50e3 / ((1 - tan / np.tan(b)) * np.sin(2 * b))
+np.savetxt(os.path.join(HERE, "reference_brittle.csv"),
+           [[0, 0], [1, thickness * WIDTH * residual]], delimiter=",",
+           fmt="%.9g", comments="", header="time [s],force [N]")

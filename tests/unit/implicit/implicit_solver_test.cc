@@ -132,6 +132,38 @@ namespace
   }
 } // namespace
 
+// Forward, back and forth again under a constant pressure, when nothing but the
+// pressure is free: the force is 5e5 N all the way.
+TEST(ImplicitSolver, FrictionBetweenPrescribedMotionsIsForceTimesSlip)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 1);
+  ModelParameters parameters = two_blocks();
+  CoulombLaw &law            = coulomb_law(parameters.joints[0]);
+  law.peak = law.residual = { 0., 0.5, 0. };
+  const auto at_rest      = component(velocity, "0");
+  const auto pressed      = component(given_force, "-1e6*min(1, T/0.5)");
+  ImplicitParameters numbers;
+  numbers.first_step = 0.002;
+  ImplicitRun run(
+      mesh, parameters,
+      { platen("held", "lower", at_rest, at_rest, at_rest),
+        platen("press", "upper", component(given_force, "0"), pressed, at_rest),
+        platen("push", "upper",
+               component(LoadQuantity::displacement, "0.01*sin(2*pi*t)"),
+               pressed, at_rest) },
+      numbers);
+  const StageParameters first = stage_with({ "held", "press" });
+  run.begin(first.loads);
+  run.finish();
+  run.begin({ "held", "push" }, &first);
+  run.finish();
+  // Once 5e5 N, and at both reversals twice as much, are elastic.
+  const double stiffness = 1e10 * 2. * 0.5;
+  const double work      = 5e5 * (0.04 - 5. * 5e5 / stiffness);
+  EXPECT_NEAR(run.state.energy.friction, work, 0.005 * work);
+}
+
 TEST(ImplicitSolver, UniformStressIsExact)
 {
   for (const Cut cut : { Cut::plain, Cut::crossed, Cut::quadratic })
