@@ -596,7 +596,7 @@ namespace quoin
       if (all.water && all.water->acts())
         all.water->begin_step(state);
     for (NodalLoad<dim> &load : all.nodal)
-      load.find_crack(state);
+      load.find_crack(state, target.released);
     is_predicted          = predict(state, target, configuration);
     unsigned int n_cracks = 0;
     // Brittle joints break one after the other, each at an equilibrium, and

@@ -293,11 +293,13 @@ namespace quoin
   }
 
   template <int dim>
-  void NodalLoad<dim>::find_crack(const State<dim> &state)
+  void NodalLoad<dim>::find_crack(const State<dim> &state,
+                                  const double released)
   {
     if constexpr (dim == 2)
       if (crack)
       {
+        crack_share = begins_here ? released : 1.;
         field->set_crack(crack->length(state));
         relaxation   = 1.;
         crack_excess = 0.;
@@ -431,16 +433,36 @@ namespace quoin
   }
 
   template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  NodalLoad<dim>::forces_of_share(const TimePoint &time) const
+  {
+    std::vector<dealii::Tensor<1, dim>> forces = field->forces(time);
+    const double used                          = field->crack();
+    field->set_crack(0.);
+    const auto &closed = field->forces(time);
+    for (unsigned int i = 0; i < forces.size(); ++i)
+      forces[i] = closed[i] + crack_share * (forces[i] - closed[i]);
+    field->set_crack(used);
+    return forces;
+  }
+
+  template <int dim>
   void NodalLoad<dim>::add_loads(const TimePoint &time,
                                  dealii::Tensor<1, dim> *force) const
   {
     if (field)
     {
-      const auto &forces = field->forces(time);
+      std::vector<dealii::Tensor<1, dim>> part;
+      const auto *forces = &field->forces(time);
+      if (crack_share != 1.)
+      {
+        part   = forces_of_share(time);
+        forces = &part;
+      }
       const double share = half_cosine(time.stage, ramp_duration);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          force[nodes[i]][d] += share * forces[i][d];
+          force[nodes[i]][d] += share * (*forces)[i][d];
       return;
     }
     const auto values = amplitude(time);

@@ -20,6 +20,22 @@ namespace quoin
 {
   namespace
   {
+    /** Refuses a geometry whose last line, not a comment, has no end: gmsh
+        would leave it out. */
+    void refuse_last_line(const std::string &filename)
+    {
+      std::ifstream file(filename);
+      std::string line, last;
+      while (std::getline(file, line))
+        last = file.eof() ? line : "";
+      const auto begin = last.find_first_not_of(" \t\r");
+      if (begin != std::string::npos && last.compare(begin, 2, "//") != 0)
+        fail_on_mesh(filename,
+                     "the last line, '" + last
+                         + "', has no line end, and gmsh would leave "
+                           "it out. End the file with an empty line.");
+    }
+
     void check_file(const std::string &filename)
     {
       namespace fs = std::filesystem;
@@ -40,6 +56,8 @@ namespace quoin
                          + "'. Give a gmsh geometry (.geo) or mesh (.msh).");
       if (fs::file_size(filename, ignored) == 0)
         fail_on_mesh(filename, "the file is empty. Save it again from gmsh.");
+      if (extension == ".geo")
+        refuse_last_line(filename);
     }
 
     /** Arguments of quoin_gmsh. */

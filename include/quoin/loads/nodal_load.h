@@ -47,8 +47,10 @@ namespace quoin
     {
       crack = std::move(opening);
     }
-    /** Takes the crack of @p state. Collective. */
-    void find_crack(const State<dim> &state);
+    /** Takes the crack of @p state. An uplift that begins in the stage, and
+        acts by the share @p released while forces out of balance are released,
+        has in the crack no more than this share, too. Collective. */
+    void find_crack(const State<dim> &state, double released = 1.);
     /**
      * Whether the crack of @p state, in equilibrium with the present uplift, is
      * the one that the uplift is that of. Otherwise the uplift becomes another
@@ -69,6 +71,7 @@ namespace quoin
     void begin_stage(const bool begins, const double automatic)
     {
       ramp_duration = !begins ? 0. : given_ramp >= 0. ? given_ramp : automatic;
+      begins_here   = begins;
     }
     double ramp() const
     {
@@ -124,6 +127,11 @@ namespace quoin
     void find_factors(const LoadParameters &parameters,
                       const NodeMap<dim> &node_map);
 
+    /** Forces of the field on 'nodes' with a share of what the crack adds [N].
+     */
+    std::vector<dealii::Tensor<1, dim>>
+    forces_of_share(const TimePoint &time) const;
+
     /** Takes over the integration of a load that differs by place. */
     void make_field(const LoadParameters &parameters,
                     const NodeMap<dim> &node_map,
@@ -136,6 +144,8 @@ namespace quoin
     /** Relaxation of follow_crack(), and by how much the crack was longer than
         the uplift took it to be [m]; 0: not known. */
     double relaxation = 1., crack_excess = 0.;
+    bool begins_here   = false;
+    double crack_share = 1.; /**< of the uplift that the crack adds [-] */
     std::shared_ptr<const MovingShape> shape;
     /** By which its distribution multiplies the mass of each of its nodes: the
         mean over the cells around, weighted by the node's linear function, so

@@ -114,3 +114,21 @@ TEST(LoadRecord, LoadsThatBalanceEachOtherNeedNoSupport)
     EXPECT_EQ(record.warning().empty(), net < 0.01);
   }
 }
+
+// Loads whose work is 1 J for a factor of 1 go on at the factor 2.
+TEST(LoadRecord, WarnsOfATwentiethOfTheWorkThatDampingTakes)
+{
+  for (const double share : { 0.04, 0.06 })
+  {
+    LoadRecord record;
+    for (unsigned int i = 0; i <= 10; ++i)
+    {
+      record.add_factor(2., 0.1 * i, 0.1 * i);
+      record.add_work(2., 7. + 0.1 * i, 3. + 2. * share * 0.1 * i);
+    }
+    EXPECT_EQ(record.warning().empty(), share < 0.05);
+    nlohmann::ordered_json stage;
+    record.summarise(stage);
+    EXPECT_NEAR(stage["damping by work of the load pattern"], share, 1e-12);
+  }
+}

@@ -80,3 +80,21 @@ TEST(ImplicitSteps, StepsOfALongJumpGrowWithItsPath)
   now.drag_path = 1e-3;
   EXPECT_DOUBLE_EQ(steps.most_jump_path(now), 2e-5);
 }
+
+// A mechanism that goes on by jumps.
+TEST(ImplicitSteps, LoadStepsGrowFromJumpToJump)
+{
+  ImplicitSteps steps{ ImplicitParameters() };
+  steps.begin_stage(1., false, false);
+  for (const bool after_jump : { false, true })
+  {
+    ImplicitState before, now;
+    before.after_jump = after_jump;
+    now.last_step     = 0.01;
+    now.jumps         = true;
+    now.n_drag        = 50;
+    steps.end_jump(before, now);
+    EXPECT_TRUE(now.after_jump);
+    EXPECT_DOUBLE_EQ(now.step, after_jump ? 0.015 : 0.003);
+  }
+}
