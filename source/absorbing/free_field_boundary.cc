@@ -7,7 +7,7 @@
 #include <quoin/operators/archive.h>
 #include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/motions/prescribed_motion.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <quoin/operators/archive.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/absorbing/plane_waves.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/motions/prescribed_motion.h>
 #include <quoin/absorbing/viscous_boundary.h>
 
 #include <Eigen/Cholesky>

@@ -4,8 +4,8 @@
 #include <quoin/base/packed_vectors.h>
 #include <quoin/base/constants.h>
 #include <quoin/implicit/dof_map.h>
-#include <quoin/loads/prescribed_motion.h>
-#include <quoin/loads/space_platen.h>
+#include <quoin/motions/prescribed_motion.h>
+#include <quoin/motions/space_platen.h>
 #include <quoin/model/block_placement.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>

@@ -8,7 +8,7 @@
 #include <quoin/implicit/reactions.h>
 #include <quoin/implicit/rest_time.h>
 #include <quoin/implicit/worst_place.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/motions/prescribed_motion.h>
 #include <quoin/joint_elements/joint_tangent.h>
 #include <quoin/model/free_bodies.h>
 #include <quoin/operators/archive.h>

@@ -5,7 +5,7 @@
 #include <quoin/base/packed_vectors.h>
 #include <quoin/loading/load_pattern.h>
 #include <quoin/implicit/rigid_bodies.h>
-#include <quoin/loads/space_platen.h>
+#include <quoin/motions/space_platen.h>
 #include <quoin/blocks/rigid_blocks.h>
 
 #include <algorithm>

@@ -128,8 +128,11 @@ namespace quoin
           "segments, which have lengths of their own [m]");
       wall.storeys.resize(1);
       enter_storey(entries, wall.storeys[0]);
-      entries.positive("Unit length", wall.unit_length,
-                       "Length of a whole unit, without mortar [m]");
+      entries.positive(
+          "Unit length", wall.unit_length,
+          "Length of a whole unit, without mortar; with 'Bond = "
+          "random' a typical one, by which pieces are too short or "
+          "cracks go through units [m]");
       entries.positive("Unit height", wall.unit_height,
                        "Height of a unit, without mortar [m]");
       std::array<double, 2> joint{};

@@ -8,8 +8,8 @@
 #include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/joint_crack.h>
 #include <quoin/loads/load_field.h>
-#include <quoin/loads/space_platen.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/motions/space_platen.h>
+#include <quoin/motions/prescribed_motion.h>
 #include <quoin/absorbing/viscous_boundary.h>
 #include <quoin/model/material_waves.h>
 

@@ -7,6 +7,7 @@ base < mesh, layout, materials, joints, elastodynamics
      < joint_laws, operators, rock, tdbem
      < block_elements, joint_elements, output, signals
      < blocks, contact, loads, water
+     < motions
      < absorbing, farfield, stages, reinforcement, structures < model
      < loading < dynamics < implicit, results < parameters < advice < problems
      < block_problem, boundary_problem < application
@@ -21,7 +22,7 @@ TIERS = [["base"],
          ["mesh", "layout", "materials", "joints", "elastodynamics"],
          ["joint_laws", "operators", "rock", "tdbem"],
          ["block_elements", "contact_geometry", "joint_elements", "output", "signals"],
-         ["blocks", "contact", "loads", "water"], ["absorbing", "farfield", "stages", "reinforcement", "structures"], ["model"], ["loading"], ["dynamics"], ["implicit", "results"], ["parameters"],
+         ["blocks", "contact", "loads", "water"], ["motions"], ["absorbing", "farfield", "stages", "reinforcement", "structures"], ["model"], ["loading"], ["dynamics"], ["implicit", "results"], ["parameters"],
          ["advice"], ["problems"], ["block_problem", "boundary_problem"], ["application"]]
 RANK = {name: rank for rank, tier in enumerate(TIERS) for name in tier}
 # boundary elements stand alone: a boundary polyline, nothing of the blocks

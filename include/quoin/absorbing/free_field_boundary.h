@@ -5,7 +5,7 @@
 #define quoin_absorbing_free_field_boundary_h
 
 #include <quoin/absorbing/free_field_grid.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 
 #include <array>
 #include <string>

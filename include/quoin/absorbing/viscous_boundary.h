@@ -6,7 +6,7 @@
 
 #include <quoin/base/thickness.h>
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/materials/plane_assumption.h>
 #include <quoin/mesh/global_geometry.h>

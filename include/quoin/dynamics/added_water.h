@@ -6,7 +6,7 @@
 
 #include <quoin/dynamics/central_differences.h>
 #include <quoin/loads/hydrodynamic_mass.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/model/model.h>
 #include <quoin/stages/stage_parameters.h>
 

@@ -10,7 +10,7 @@
 #include <quoin/dynamics/heavy_nodes.h>
 #include <quoin/stages/stage_parameters.h>
 #include <quoin/loads/hydrodynamic_mass.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/mesh/node_map.h>
 
 #include <vector>

@@ -5,7 +5,7 @@
 #define quoin_dynamics_heavy_nodes_h
 
 #include <quoin/loads/hydrodynamic_mass.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 
 #include <array>
 #include <vector>

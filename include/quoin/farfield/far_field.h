@@ -6,7 +6,7 @@
 
 #include <quoin/base/eigen_core.h>
 #include <quoin/farfield/interface_transfer.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/elastodynamics/boundary.h>
 #include <quoin/tdbem/boundary_history.h>
 #include <quoin/tdbem/time_marching.h>

@@ -7,7 +7,7 @@
 #include <quoin/base/eigen_core.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/interface_transfer.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 
 #include <string>
 #include <vector>

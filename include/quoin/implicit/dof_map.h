@@ -8,8 +8,8 @@
 #include <quoin/operators/state.h>
 #include <quoin/model/model.h>
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/motion_constraint.h>
-#include <quoin/loads/platen.h>
+#include <quoin/motions/motion_constraint.h>
+#include <quoin/motions/platen.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>

@@ -5,7 +5,7 @@
 #define quoin_implicit_rigid_bodies_h
 
 #include <quoin/implicit/implicit_state.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/operators/state.h>
 
 #include <deal.II/lac/trilinos_vector.h>

@@ -4,7 +4,7 @@
 #ifndef quoin_loading_constraint_checks_h
 #define quoin_loading_constraint_checks_h
 
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/model/model.h>
 #include <quoin/stages/stage_parameters.h>
 

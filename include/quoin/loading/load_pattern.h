@@ -5,7 +5,7 @@
 #define quoin_loading_load_pattern_h
 
 #include <quoin/stages/stage_parameters.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/model/model.h>
 #include <quoin/operators/force_operator.h>

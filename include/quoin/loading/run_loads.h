@@ -7,7 +7,7 @@
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/loading/load_pattern.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/model/model.h>
 #include <quoin/stages/stage_parameters.h>

@@ -8,7 +8,7 @@
 #include <quoin/loading/load_pattern.h>
 #include <quoin/loading/release.h>
 #include <quoin/stages/stage_parameters.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/structures/beams.h>
 

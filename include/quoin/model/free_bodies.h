@@ -6,7 +6,7 @@
 
 #include <quoin/model/model.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 
 #include <string>
 #include <vector>

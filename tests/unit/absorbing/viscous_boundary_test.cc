@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../loads/boundary_square.h"
+#include "../motions/boundary_square.h"
 
 #include <quoin/absorbing/viscous_boundary.h>
 

@@ -3,7 +3,7 @@
 
 #include "../model/test_models.h"
 
-#include <quoin/loads/platen.h>
+#include <quoin/motions/platen.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/state_checks.h>

@@ -4,7 +4,7 @@
 #include "../base/message_of.h"
 #include "../model/test_models.h"
 
-#include <quoin/loads/platen.h>
+#include <quoin/motions/platen.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/rigid_blocks.h>
 #include <quoin/dynamics/highest_frequency.h>

@@ -15,8 +15,8 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/prescribed_motion.h>
-#include <quoin/loads/space_platen.h>
+#include <quoin/motions/prescribed_motion.h>
+#include <quoin/motions/space_platen.h>
 #include <quoin/absorbing/viscous_boundary.h>
 #include <quoin/mesh/partition.h>
 

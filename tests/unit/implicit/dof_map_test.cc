@@ -5,7 +5,7 @@
 
 #include <quoin/operators/archive.h>
 #include <quoin/implicit/dof_map.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/motions/prescribed_motion.h>
 
 using namespace quoin;
 using namespace quoin::test;

@@ -7,7 +7,7 @@
 #include "implicit_run.h"
 
 #include <quoin/base/constants.h>
-#include <quoin/loads/space_platen.h>
+#include <quoin/motions/space_platen.h>
 
 using namespace quoin;
 using namespace quoin::test;

@@ -4,7 +4,7 @@
 #include "../base/message_of.h"
 #include "test_models.h"
 
-#include <quoin/loads/platen.h>
+#include <quoin/motions/platen.h>
 #include <quoin/results/field_output.h>
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/model/block_placement.h>

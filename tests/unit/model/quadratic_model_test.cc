@@ -4,7 +4,7 @@
 #include "test_models.h"
 
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/platen.h>
+#include <quoin/motions/platen.h>
 
 using namespace quoin;
 using namespace quoin::test;

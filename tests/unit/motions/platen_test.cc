@@ -3,7 +3,7 @@
 
 #include "boundary_square.h"
 
-#include <quoin/loads/platen.h>
+#include <quoin/motions/platen.h>
 
 #include <gtest/gtest.h>
 

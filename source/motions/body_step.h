@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_source_loads_body_step_h
-#define quoin_source_loads_body_step_h
+#ifndef quoin_source_motions_body_step_h
+#define quoin_source_motions_body_step_h
 
 #include <quoin/base/eigen_core.h>
 #include <quoin/base/local_damping.h>

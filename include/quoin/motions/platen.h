@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_loads_platen_h
-#define quoin_loads_platen_h
+#ifndef quoin_motions_platen_h
+#define quoin_motions_platen_h
 
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 #include <quoin/mesh/node_map.h>
 
 namespace quoin

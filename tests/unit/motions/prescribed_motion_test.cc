@@ -4,7 +4,7 @@
 #include "boundary_square.h"
 
 #include <quoin/loads/load_field.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/motions/prescribed_motion.h>
 
 #include <gtest/gtest.h>
 

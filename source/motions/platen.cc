@@ -6,8 +6,8 @@
 #include <quoin/operators/archive.h>
 #include <quoin/base/constants.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/platen.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/motions/platen.h>
+#include <quoin/motions/prescribed_motion.h>
 
 #include <algorithm>
 #include <cmath>

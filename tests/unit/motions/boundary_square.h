@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_tests_unit_loads_boundary_square_h
-#define quoin_tests_unit_loads_boundary_square_h
+#ifndef quoin_tests_unit_motions_boundary_square_h
+#define quoin_tests_unit_motions_boundary_square_h
 
 #include "../mesh/test_nodes.h"
 
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/motions/motion_constraint.h>
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
-#include <quoin/loads/space_platen.h>
+#include <quoin/motions/space_platen.h>
 #include <quoin/operators/archive.h>
 
 #include <deal.II/physics/transformations.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_loads_space_platen_h
-#define quoin_loads_space_platen_h
+#ifndef quoin_motions_space_platen_h
+#define quoin_motions_space_platen_h
 
-#include <quoin/loads/platen.h>
+#include <quoin/motions/platen.h>
 
 #include <type_traits>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_loads_motion_constraint_h
-#define quoin_loads_motion_constraint_h
+#ifndef quoin_motions_motion_constraint_h
+#define quoin_motions_motion_constraint_h
 
 #include <quoin/base/resultant.h>
 #include <quoin/loads/load_parameters.h>

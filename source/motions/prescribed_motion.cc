@@ -3,7 +3,7 @@
 
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/motions/prescribed_motion.h>
 #include <quoin/loads/traction_field.h>
 
 #include <algorithm>
