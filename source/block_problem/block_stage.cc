@@ -97,6 +97,13 @@ namespace quoin
     system.begin_stage(index, state);
     outputs.begin_stage(stage.reset, state);
     context.note_rounding();
+    for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
+      if (load->has_bared_sides(state))
+        log.warning("stage ", stage.name, ": the load ", load->name(),
+                    " is a pressure in joints, and goes on to act on blocks "
+                    "whose neighbour across the joint is excavated or not "
+                    "there yet. If the water drains there, give these joints "
+                    "a load of their own, and leave it out of the stage.");
   }
 
   template <int dim>

@@ -156,8 +156,10 @@ namespace quoin
             " %, accelerated the model or was damped, so that the applied load "
             "is not the resistance of the model.");
     if (!text.empty())
-      text += " Load more slowly; beyond a limit load control a displacement, "
-              "by 'Load pattern'.";
+      text += pattern.n_rows > 0
+                  ? " Push more slowly."
+                  : " Load more slowly; beyond a limit load control a "
+                    "displacement, by 'Load pattern'.";
     if (damped_share() > most_damped)
       text += text_of(
           text.empty() ? "" : " ", "damping took ", 100. * damped_share(),

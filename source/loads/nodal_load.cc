@@ -209,11 +209,14 @@ namespace quoin
       acts_in_joints = true;
       communicator   = node_map.communicator();
       for (const JointNodes<dim> &joint : node_map.faces().joints)
-        if (thickness[joint.groups[0]] != thickness[joint.groups[1]]
-            && is_among(node_map.table().face_names[joint.name],
-                        parameters.boundaries))
-          uneven_joints.push_back({ node_map.block_of_node(joint.lower[0]),
-                                    node_map.block_of_node(joint.upper[0]) });
+        if (is_among(node_map.table().face_names[joint.name],
+                     parameters.boundaries))
+        {
+          pressed_joints.push_back({ node_map.block_of_node(joint.lower[0]),
+                                     node_map.block_of_node(joint.upper[0]) });
+          if (thickness[joint.groups[0]] != thickness[joint.groups[1]])
+            uneven_joints.push_back(pressed_joints.back());
+        }
     }
     if (parameters.differs_by_place())
     {
@@ -252,16 +255,24 @@ namespace quoin
   }
 
   template <int dim>
+  bool NodalLoad<dim>::has_bared_sides(const State<dim> &state,
+                                       const bool uneven) const
+  {
+    if (!acts_in_joints)
+      return false;
+    const auto &joints  = uneven ? uneven_joints : pressed_joints;
+    const bool is_bared = std::any_of(
+        joints.begin(), joints.end(),
+        [&](const auto &blocks)
+        { return state.is_absent(blocks[0]) != state.is_absent(blocks[1]); });
+    return dealii::Utilities::MPI::max(unsigned(is_bared), communicator) > 0;
+  }
+
+  template <int dim>
   void NodalLoad<dim>::refuse_bared_sides(const std::string &name,
                                           const State<dim> &state) const
   {
-    if (!acts_in_joints)
-      return;
-    const bool is_bared = std::any_of(
-        uneven_joints.begin(), uneven_joints.end(),
-        [&](const auto &blocks)
-        { return state.is_absent(blocks[0]) != state.is_absent(blocks[1]); });
-    if (dealii::Utilities::MPI::max(unsigned(is_bared), communicator) > 0)
+    if (has_bared_sides(state, true))
       throw InputError("section 'Loads/" + load_name
                        + "': 'Pressure' acts in a joint between groups of "
                          "different 'Thickness', over the smaller one, but in "

@@ -86,6 +86,10 @@ namespace quoin
     {
       return acts_in_joints;
     }
+    /** Whether a joint in which the pressure acts has a block on one side alone
+        in @p state; @p uneven: one between blocks of different thickness.
+        Collective. */
+    bool has_bared_sides(const State<dim> &state, bool uneven = false) const;
     /** Throws an InputError if a joint between blocks of different thickness,
         over the smaller of which the pressure acts, has one of them alone in
         the stage @p name. Collective. */
@@ -160,8 +164,9 @@ namespace quoin
     std::vector<double> weights;
     bool acts_in_joints   = false;
     MPI_Comm communicator = MPI_COMM_SELF;
-    /** Blocks of different thickness at joints with its pressure. */
-    std::vector<std::array<unsigned int, 2>> uneven_joints;
+    /** Blocks at joints with its pressure, all and those of different
+        thickness. */
+    std::vector<std::array<unsigned int, 2>> pressed_joints, uneven_joints;
     double given_ramp; /**< -1: automatic [s] */
     double ramp_duration = 0.;
     std::vector<dealii::Tensor<1, dim>>

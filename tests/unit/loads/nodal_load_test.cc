@@ -195,6 +195,17 @@ TEST(NodalLoad, PressureInAJointIsInBalanceWhateverTheThicknesses)
     }
     EXPECT_NEAR(std::abs(sum[0]), 8. * 0.25, 1e-9);
     EXPECT_NEAR(sum[0] + sum[1], 0., 1e-12);
+    // Where the wall has gone the pressure has one side, of any thickness.
+    const NodalLoad<2> even(parameters, nodes, std::vector<double>(8, 1.), 1.);
+    State<2> state;
+    EXPECT_FALSE(load.has_bared_sides(state));
+    state.block_marks = { 0, block_mark::removed };
+    EXPECT_TRUE(load.has_bared_sides(state));
+    EXPECT_TRUE(load.has_bared_sides(state, true));
+    EXPECT_TRUE(even.has_bared_sides(state));
+    EXPECT_FALSE(even.has_bared_sides(state, true));
+    state.block_marks[0] = block_mark::removed;
+    EXPECT_FALSE(even.has_bared_sides(state));
   }
 }
 
