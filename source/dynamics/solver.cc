@@ -110,7 +110,11 @@ namespace quoin
       }
     // Pressure that is in joints before the weight which closes them throws
     // blocks up, and a thrust makes them slip.
-    const double with_it = stage.end == StageEnd::static_ratio ? ramp : 0.;
+    const double with_it
+        = stage.end == StageEnd::static_ratio
+                  && model.parameters().initial_stresses.empty()
+              ? ramp
+              : 0.;
     for (NodalLoad<dim> &load : all.nodal)
       if (!load.is_weight())
         load.begin_stage(begins(load.name()),

@@ -138,8 +138,8 @@ namespace quoin
     /** Lets gravity that the stage names and @p previous, the stage before or
         null, does not grow over @p automatic [s], unless its parameters say
         otherwise, and with it pressures in joints and, in a stage that ends at
-        rest, all other forces that begin; loads of a pattern are there at once.
-     */
+        rest, all other forces that begin, unless there is initial stress; loads
+        of a pattern are there at once. */
     void ramp_loads(const StageParameters *previous, double automatic);
     /** Begins the load pattern, if the stage has one, once the stage has
         begun; it goes on with the factor of @p previous if that has the same
