@@ -27,8 +27,8 @@ namespace quoin
       return { 1. - middle, middle };
     }
 
-    /** The same of the quadratic functions: of the node where the edge begins,
-        of that in its middle, and of that where it ends. */
+    /** Means of the quadratic functions of an edge over that part: those of the
+        nodes where the edge begins, in its middle and where it ends. */
     std::array<double, 3> quadratic_means(const double begin, const double end)
     {
       const double middle = 0.5 * (begin + end);

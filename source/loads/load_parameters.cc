@@ -490,7 +490,8 @@ namespace quoin
             "initial stress, where it is twice the travel time of a shear wave "
             "along the model's diagonal and at least two thousand critical "
             "time steps. Pressures in joints that begin in the same stage grow "
-            "with it [s]");
+            "with it, and, without initial stress, in a stage with 'End = "
+            "static ratio' also tractions and the forces on platens [s]");
       if (entries.reads_if(is_force))
         entries.other(
             "Distribution", "1",

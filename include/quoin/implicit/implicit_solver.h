@@ -182,8 +182,9 @@ namespace quoin
         the next step may go on like that. */
     void remember_motion(const Configuration<dim> &configuration,
                          State<dim> &state) const;
-    /** Error of the prediction of a load step to @p target, see
-        ImplicitSteps [-]. */
+    /** By how much of the applied forces the prediction of a load step to
+        @p target is out of balance, or its reactions are others than expected
+        [-]; 0: it is not predicted. Collective. */
     double error_of_prediction(const State<dim> &state,
                                const StepTarget &target) const;
     /** Finds a correction and its share of the advance; false: none. */
@@ -228,8 +229,7 @@ namespace quoin
 
     unsigned int attempt = 0, iteration = 0;
     bool is_predicted = false; /**< whether iterations began at a prediction */
-    /** Of a load step that was predicted, see ImplicitSteps; 0: it was not [-].
-     */
+    /** error_of_prediction() of the load step; 0: it was not predicted [-]. */
     double prediction_error = 0.;
     double last_share       = 1.; /**< last fraction of the line search */
     ImplicitRecord done;

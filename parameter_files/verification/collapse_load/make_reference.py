@@ -48,6 +48,12 @@ w = 2e-3 * times**2
 save("overturning.csv", times, w,
      turned(w, 1, (-0.5, 1), (-0.5, 1), np.array([1, 0])))
 
+# over 11 degrees, which small displacements are not for
+w = 0.05 * times
+save("overturning_far.csv", times, w,
+     turned(w, 1, (-0.5, 1), (-0.5, 1), np.array([1, 0])))
+w = 2e-3 * times**2
+
 save("overturning_top.csv", times, 2 * w,
      turned(2 * w, 1, (-0.5, 1), (-0.5, 1), np.array([1, 0]), (-0.5, 2)))
 

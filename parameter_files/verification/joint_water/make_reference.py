@@ -48,6 +48,8 @@ def main():
     # (density - water) times g times area of the block
     write("buoyancy.csv", "time [s],horizontal [N],vertical [N]",
           [(1.0, 0.0, (24e3 - 10e3) * 2.0 * 1.0)])
+    # of the ground, 2 m wide, when the block is gone
+    write("bared.csv", "time [s],reaction [N]", [(2.0, 2.0 * 3.0 * 1e4)])
     rows = []
     for k in range(10, 41):
         t = k / 40
