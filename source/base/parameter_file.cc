@@ -288,9 +288,7 @@ namespace quoin
         where           = origin.file
                 + (is_option ? std::string()
                              : ", line " + std::to_string(origin.line))
-                + ", section '"
-                + (path.empty() ? "/" : boost::algorithm::join(path, "/"))
-                + "'";
+                + section_phrase(boost::algorithm::join(path, "/"));
         if (number > 0)
           found = complaint_about(prm, lines[number - 1], path);
       }
@@ -422,9 +420,8 @@ namespace quoin
           const auto [before, is_new] = last.insert({ entry, origin });
           if (!is_new && before->second.file == origin.file)
             noted->repeated.push_back(
-                place + ", section '" + (section.empty() ? "/" : section)
-                + "': '" + name + "' was set in line "
-                + std::to_string(before->second.line)
+                place + section_phrase(section) + ": '" + name
+                + "' was set in line " + std::to_string(before->second.line)
                 + " already, and the last value counts. Remove one of them.");
           before->second = origin;
         }

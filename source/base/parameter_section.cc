@@ -131,8 +131,8 @@ namespace quoin
   {
     throw InputError(
         place_of(prm, path.empty() ? name : path + "/" + name, file_name)
-        + ", section '" + (path.empty() ? "/" : path) + "': '" + name + " = "
-        + text(name) + "' " + why);
+        + section_phrase(path) + ": '" + name + " = " + text(name) + "' "
+        + why);
   }
 
   std::string ParameterSection::folder() const

@@ -293,7 +293,7 @@ def error_in_an_included_file(quoin, folder):
         stream.write("set Title = y\n" + text + "set Titel = z\n")
     n = text.count("\n") + 2
     status, printed = run([quoin, prm, "--check"])
-    expect(status, printed, 1, ["case.prm, line %d, section '/'" % n])
+    expect(status, printed, 1, ["case.prm, line %d, outside of all sections" % n])
     with open(prm, "w") as stream:
         stream.write("include nothing.inc\n" + text)
     status, printed = run([quoin, prm, "--check"])

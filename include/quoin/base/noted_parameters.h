@@ -44,6 +44,14 @@ namespace quoin
     return place == noted->places.end() ? file : place->second;
   }
 
+  /** The section of an entry in a message, as ", section 'Loads/weight'", or
+     that it is in none. @p path: names of sections, "" for the top level. */
+  inline std::string section_phrase(const std::string &path)
+  {
+    return path.empty() ? ", outside of all sections"
+                        : ", section '" + path + "'";
+  }
+
   /**
    * The error @p message "FILE, section 'SECTION': 'NAME = ..." with the place
    * where that entry is set for @p file. If the entry keeps its default or the
