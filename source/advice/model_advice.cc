@@ -294,16 +294,24 @@ namespace quoin
     }
 
     /** Largest acceleration of a load of gravity along an axis [m/s^2]; where
-        its function of time is not constant, at the start or in the end. */
+        its function of time is not constant, at the start and at the end of the
+        run, or in the end if it comes to a limit. */
     double largest_gravity(const Parameters &parameters)
     {
+      double end = 0.;
+      for (const StageParameters &stage : parameters.stages)
+        end += stage.end == StageEnd::time ? stage.duration : 0.;
       double largest = 0.;
       for (const LoadParameters &load : parameters.loads)
         if (load.type == LoadType::gravity)
           for (const auto &given : load.given_components())
-            for (const double t : { 0., late_time })
-              largest = std::max(largest,
-                                 std::abs(given.component.value({ t, t })));
+          {
+            const auto at = [&](const double t)
+            { return std::abs(given.component.value({ t, t })); };
+            largest = std::max({ largest, at(0.), at(end) });
+            if (at(late_time) == at(0.5 * late_time))
+              largest = std::max(largest, at(late_time));
+          }
       return std::isfinite(largest) ? largest : 0.;
     }
 

@@ -87,6 +87,23 @@ namespace quoin
            });
   }
 
+  namespace
+  {
+    /** Refuses blocks that overlap so deep that contacts would not find each
+        other, or push them apart like springs. */
+    void refuse_overlap(const MeshReport &report)
+    {
+      /** By the shortest edge [-]. */
+      constexpr double most = 0.01;
+      if (report.overlaps && report.overlap_depth > most * report.shortest_edge)
+        throw InputError(
+            "section 'Mesh': " + report.overlap_text()
+            + ". With 'Displacements = large' of section 'Contact' they would "
+              "pass through each other or be pushed apart. "
+            + report.overlap_cure());
+    }
+  } // namespace
+
   template <int dim>
   void BlockSystem<dim>::make_mesh(MeshData<dim> as_read)
   {
@@ -107,9 +124,13 @@ namespace quoin
           split_into_blocks(as_read, parameters.split, mesh);
           as_read     = MeshData<dim>();
           mesh_report = make_mesh_report(mesh);
-          // Unmatched edges that touch are then in contact.
           if (parameters.model.large_displacements)
+          {
+            // Unmatched edges that touch are then in contact.
             mesh_report.unmatched_size = 0.;
+            if (parameters.model.absent_groups.empty())
+              refuse_overlap(mesh_report);
+          }
           const auto &materials = parameters.model.materials;
           naming(parameters.file,
                  [&]()

@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
+#include <quoin/base/vector_range.h>
 #include <quoin/base/wall_clock.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/joint_handover.h>
@@ -104,9 +105,27 @@ namespace quoin
     ContactState &contacts = state.get<ContactState>();
     if (bound_search != contacts.n_searches)
       bind(contacts);
-    if (state.step >= contacts.next_check)
+    if (contacts.next_check != ContactState::never
+        && (state.step >= contacts.next_check || moves_faster(state, step.dt)))
       check(state, step.dt);
     near.moving_edges().gather(state);
+  }
+
+  bool BlockContacts::moves_faster(const State<2> &state, const double dt) const
+  {
+    // Once in two steps is often enough: what is faster than a skin in one ends
+    // the run.
+    if (state.step % 2 != 0)
+      return false;
+    using F           = LaneFunctions<native_lanes>;
+    const double *of  = reinterpret_cast<const double *>(state.velocity.data());
+    VectorRange range = range_of(
+        VectorRange::dim * exchange.n_owned(),
+        [of](const std::size_t i) { return F::load(of + i); },
+        [of](const std::size_t i) { return of[i]; });
+    MPI_Allreduce(MPI_IN_PLACE, range.largest.data(), int(range.largest.size()),
+                  MPI_DOUBLE, MPI_MAX, exchange.communicator());
+    return range.diagonal() * dt > state.get<ContactState>().foreseen;
   }
 
   void BlockContacts::check(State<2> &state, const double dt)
@@ -115,15 +134,16 @@ namespace quoin
     const bool is_first    = contacts.n_searches == 0;
     contacts.handed_over.resize(node_map.table().joined.size(), 0);
     Look look;
-    for (unsigned int i = 0; i < edges.boundary_nodes().size() && !is_first;
-         ++i)
+    for (unsigned int i = 0; i < edges.boundary_nodes().size(); ++i)
     {
-      const NodeRecord<2> &node        = state.nodes[edges.boundary_nodes()[i]];
-      const dealii::Tensor<1, 2> &from = contacts.search_positions[i];
-      const dealii::Tensor<1, 2> &v = state.velocity[edges.boundary_nodes()[i]];
-      look.moved.take(node.X[0] + node.u[0] - from[0],
-                      node.X[1] + node.u[1] - from[1]);
+      const unsigned int node       = edges.boundary_nodes()[i];
+      const dealii::Tensor<1, 2> &v = state.velocity[node];
       look.speed.take(v[0], v[1]);
+      if (is_first)
+        continue;
+      const auto way
+          = state.nodes[node].position() - contacts.search_positions[i];
+      look.moved.take(way[0], way[1]);
     }
     look.changed  = find_handovers(edges, joints, parameters.handover, state)
                            || search_is_due
@@ -161,8 +181,9 @@ namespace quoin
       contacts.renewal  = search.skin().renewal(contacts, rate);
       left              = contacts.skin;
     }
-    contacts.next_check
-        = state.step + search.skin().interval(contacts, left, ahead);
+    const std::uint64_t steps = search.skin().interval(contacts, left, ahead);
+    contacts.next_check       = state.step + steps;
+    contacts.foreseen         = std::max(left, ahead) / double(steps);
   }
 
   void BlockContacts::add_stiffness_bound(
@@ -237,23 +258,33 @@ namespace quoin
     ContactPoint inherited;
     double deepest     = 0.;
     const bool is_heir = find_parent(contacts, i, set, inherited, deepest);
-    if (opening >= inherited.plastic_opening
-        || opening <= std::min(0., inherited.plastic_opening)
-                          - near.weights()[i].depth)
+    if (opening >= inherited.plastic_opening)
       return false;
-    // Edges that overlap from behind, as those of thin wedges which lie on
-    // each other, were never apart, and their vertices lie outside.
     const MovingEdges &moving  = near.moving_edges();
     const auto &[lower, upper] = near.edges_of(i);
     const unsigned int deeper  = g.opening[0] <= g.opening[1] ? 0 : 1;
+    const auto is_inside       = [&, &lower = lower, &upper = upper]()
+    {
+      return g.share[deeper] < 0.5
+                 ? moving.vertex_is_inside(lower, deeper, upper)
+                 : moving.vertex_is_inside(upper, 1 - deeper, lower);
+    };
+    const double depth = std::min(0., inherited.plastic_opening) - opening;
+    if (depth >= near.weights()[i].depth)
+    {
+      // Apart in the step before: too fast to be caught.
+      if (pair.was_open && is_inside())
+        note_depth(i, depth);
+      return false;
+    }
+    // Edges that overlap from behind, as those of thin wedges which lie on
+    // each other, were never apart, and their vertices lie outside.
     if (!pair.was_open
         && opening < deepest
                          - first_overlap
                                * std::min(moving[lower].length,
                                           moving[upper].length)
-        && (g.share[deeper] < 0.5
-                ? !moving.vertex_is_inside(lower, deeper, upper)
-                : !moving.vertex_is_inside(upper, 1 - deeper, lower)))
+        && !is_inside())
       return false;
 
     if (!is_heir)
@@ -654,10 +685,8 @@ namespace quoin
     if (viscous_beta > 0. || damps)
       near.moving_edges().gather_velocities(state.velocity.data());
     if (damps)
-    {
       dashpots.clear();
-      dashpot_points.clear();
-    }
+    dashpot_points.clear();
     if (contacts.marks.empty())
       make_marks(contacts);
     spent.updates += contacts.pairs.size();
@@ -716,7 +745,7 @@ namespace quoin
   {
     const MovingEdges &moving = near.moving_edges();
     dashpots.sum_over_ranks();
-    for (const DashpotPoint &at : dashpot_points)
+    for (DashpotPoint &at : dashpot_points)
     {
       const ContactPair &pair     = contacts.pairs[at.pair];
       const JointDamping &damping = contact_laws.dampings()[pair.set];
@@ -739,12 +768,13 @@ namespace quoin
                             });
       const double sigma = at.area * traction.normal,
                    tau   = at.area * traction.shear;
-      const double f[2]  = { sigma * nx + tau * ny, sigma * ny - tau * nx };
+      at.force[0]        = sigma * nx + tau * ny;
+      at.force[1]        = sigma * ny - tau * nx;
       EdgeLanes<1> edge_a, edge_b;
       moving.load(&a, edge_a);
       moving.load(&b, edge_b);
       TractionLanes<1> forces;
-      PairFunctions<1>::spread(at.lower, at.upper, f, forces);
+      PairFunctions<1>::spread(at.lower, at.upper, at.force, forces);
       moving.add_to_ends(PairFunctions<1>::end_forces(edge_a, edge_b, forces),
                          &a, &b, 1, compact_viscous.data());
     }

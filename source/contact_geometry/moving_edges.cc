@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/vector_range.h>
 #include <quoin/contact_geometry/edge_lanes.h>
 #include <quoin/contact_geometry/moving_edges.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace quoin
 {
@@ -223,45 +222,15 @@ namespace quoin
   double MovingEdges::motion_since(
       const AlignedArray<dealii::Tensor<1, 2>> &from) const
   {
-    using F = LaneFunctions<native_lanes>;
-    static_assert(native_lanes % dim == 0);
-    // The largest and the least component in each direction; several vectors,
-    // none of which waits for the others.
-    constexpr unsigned int n_chains = 4;
-    constexpr double infinity       = std::numeric_limits<double>::infinity();
-    F::Value largest[n_chains], least[n_chains];
-    std::fill_n(largest, n_chains, F::Value{} - infinity);
-    std::fill_n(least, n_chains, F::Value{} + infinity);
+    using F              = LaneFunctions<native_lanes>;
     const double *now    = reinterpret_cast<const double *>(position.data());
     const double *before = reinterpret_cast<const double *>(from.data());
-    const std::size_t n  = dim * position.size();
-    std::size_t i        = 0;
-    for (; i + n_chains * native_lanes <= n; i += n_chains * native_lanes)
-      for (unsigned int k = 0; k < n_chains; ++k)
-      {
-        const F::Value way = F::load(now + i + k * native_lanes)
-                             - F::load(before + i + k * native_lanes);
-        largest[k] = F::maximum(largest[k], way);
-        least[k]   = F::minimum(least[k], way);
-      }
-    double range[dim];
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      double high = -infinity, low = infinity;
-      for (std::size_t j = i + d; j < n; j += dim)
-      {
-        high = std::max(high, now[j] - before[j]);
-        low  = std::min(low, now[j] - before[j]);
-      }
-      for (unsigned int k = 0; k < n_chains; ++k)
-        for (unsigned int l = d; l < native_lanes; l += dim)
-        {
-          high = std::max(high, F::at(largest[k], l));
-          low  = std::min(low, F::at(least[k], l));
-        }
-      range[d] = n > 0 ? high - low : 0.;
-    }
-    return std::sqrt(range[0] * range[0] + range[1] * range[1]);
+    return range_of(
+               VectorRange::dim * position.size(),
+               [&](const std::size_t i)
+               { return F::load(now + i) - F::load(before + i); },
+               [&](const std::size_t i) { return now[i] - before[i]; })
+        .diagonal();
   }
 
   bool MovingEdges::vertex_is_inside(const unsigned int e, const unsigned int k,

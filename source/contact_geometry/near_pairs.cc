@@ -144,6 +144,41 @@ namespace quoin
     return true;
   }
 
+  namespace
+  {
+    ContactEndForces forces_at_ends(const EdgeLanes<1> &a,
+                                    const EdgeLanes<1> &b,
+                                    const TractionLanes<1> &sum,
+                                    const double share)
+    {
+      ContactEndForces result;
+      result.share                 = share;
+      const EndForceLanes<1> force = PairFunctions<1>::end_forces(a, b, sum);
+      for (unsigned int n = 0; n < 4; ++n)
+      {
+        const EdgeLanes<1> &edge = n < 2 ? a : b;
+        const auto &f            = n < 2 ? force.a[n] : force.b[n - 2];
+        const double distance    = n % 2 == 0 ? 0. : edge.length;
+        result.place[n] = dealii::Point<2>(edge.x + distance * edge.tangent[0],
+                                           edge.y + distance * edge.tangent[1]);
+        result.force[n] = dealii::Point<2>(f[0], f[1]);
+      }
+      return result;
+    }
+  } // namespace
+
+  ContactEndForces NearPairs::spread(const unsigned int i, const double lower,
+                                     const double upper,
+                                     const double (&force)[2]) const
+  {
+    EdgeLanes<1> a, b;
+    moving.load(&pair_edges[i][0], a);
+    moving.load(&pair_edges[i][1], b);
+    TractionLanes<1> sum;
+    PairFunctions<1>::spread(lower, upper, force, sum);
+    return forces_at_ends(a, b, sum, pair_weights[i].share);
+  }
+
   bool NearPairs::end_forces(const ContactState &contacts, const unsigned int i,
                              ContactEndForces &result) const
   {
@@ -162,17 +197,7 @@ namespace quoin
                                       point.area * point.normal_traction,
                                       point.area * point.shear_traction, sum);
     }
-    const EndForceLanes<1> force = PairFunctions<1>::end_forces(a, b, sum);
-    for (unsigned int n = 0; n < 4; ++n)
-    {
-      const EdgeLanes<1> &edge = n < 2 ? a : b;
-      const auto &f            = n < 2 ? force.a[n] : force.b[n - 2];
-      const double distance    = n % 2 == 0 ? 0. : edge.length;
-      result.place[n] = dealii::Point<2>(edge.x + distance * edge.tangent[0],
-                                         edge.y + distance * edge.tangent[1]);
-      result.force[n] = dealii::Point<2>(f[0], f[1]);
-    }
-    result.share = pair_weights[i].share;
+    result = forces_at_ends(a, b, sum, pair_weights[i].share);
     return true;
   }
 

@@ -543,8 +543,7 @@ namespace quoin
       const NodeForces<2> forces{ unused.data(), nullptr };
       if (block_contacts)
       {
-        state.template get<ContactState>().next_check
-            = -1; // search nothing to look
+        state.template get<ContactState>().next_check = ContactState::never;
         block_contacts->update(context, state);
         block_contacts->add_forces(context, state, forces);
       }

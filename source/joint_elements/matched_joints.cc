@@ -97,6 +97,17 @@ namespace quoin
                           forces.viscous);
   }
 
+  void MatchedJoints::add_dashpot_forces(const unsigned int i,
+                                         const State<2> &state,
+                                         dealii::Tensor<1, 2> *force) const
+  {
+    const JointHistory &history = state.get<JointHistory>();
+    if (has_dashpots())
+      dashpots.add_face_forces(i, all_segments, all_laws, state.nodes.data(),
+                               history, history.handed_over.data(),
+                               state.velocity.data(), force);
+  }
+
   void MatchedJoints::add_forces(const NodeRecord<2> *nodes,
                                  JointHistory &history, EnergyAccounts &energy,
                                  dealii::Tensor<1, 2> *force) const

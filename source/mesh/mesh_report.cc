@@ -344,34 +344,53 @@ namespace quoin
       }
     }
 
-    /** Whether both ends of each edge are well beyond the other one. */
-    bool cross(const OuterFaces<2> &edges, const unsigned int f,
-               const unsigned int g)
+    /** Depth of an overlap, by the size of what overlaps, up to which it is one
+        of rounding. */
+    constexpr double rounding = 1e-3;
+
+    /** By how much blocks overlap where two edges cross: that of the inner ends
+        of both which is less far behind the other edge [m]; 0: not at all. */
+    double crossing_depth(const OuterFaces<2> &edges, const unsigned int f,
+                          const unsigned int g)
     {
-      // Two meshes along an arc cross by less.
-      constexpr double share = 0.1;
-      const auto sides = [&](const unsigned int one, const unsigned int other)
+      // Two meshes along an arc cross at angles of up to half of their chords'
+      // angles, and their ends lie behind each other by less than the chord
+      // times half of the angle.
+      constexpr double largest_angle = 0.8, share_of_chord = 0.6;
+      const auto way = [&](const unsigned int e)
+      { return edges.corner(e, 1) - edges.corner(e, 0); };
+      const double lengths[2] = { way(f).norm(), way(g).norm() };
+      const auto inner = [&](const unsigned int one, const unsigned int other,
+                             const double length)
       {
-        const auto edge  = edges.corner(one, 1) - edges.corner(one, 0);
+        const auto edge  = way(one);
         const auto place = [&](const unsigned int k)
         {
           const auto d = edges.corner(other, k) - edges.corner(one, 0);
-          return (edge[0] * d[1] - edge[1] * d[0]) / edge.norm();
+          return (edge[0] * d[1] - edge[1] * d[0]) / length;
         };
         const double a = place(0), b = place(1);
-        return a * b < 0.
-               && std::min(std::abs(a), std::abs(b))
-                      > share
-                            * edges.corner(other, 0).distance(
-                                edges.corner(other, 1));
+        return a * b < 0. ? std::max(a, b) : 0.; // blocks are on the left
       };
-      return sides(f, g) && sides(g, f);
+      const double depth
+          = std::min(inner(f, g, lengths[0]), inner(g, f, lengths[1]));
+      if (depth <= rounding * std::min(lengths[0], lengths[1]))
+        return 0.;
+      const double angle = std::acos(
+          std::clamp(-(way(f) * way(g)) / (lengths[0] * lengths[1]), -1., 1.));
+      return angle < largest_angle
+                     && depth <= share_of_chord * angle
+                                     * std::max(lengths[0], lengths[1])
+                 ? 0.
+                 : depth;
     }
 
-    /** Whether an edge of one face goes well through the other one. */
-    bool cross(const OuterFaces<3> &faces, const unsigned int f,
-               const unsigned int g)
+    /** By how far the nearer end of an edge lies behind the face of the other
+        block that it goes well through [m]; 0: none does. */
+    double crossing_depth(const OuterFaces<3> &faces, const unsigned int f,
+                          const unsigned int g)
     {
+      // Two meshes of a curved surface cross by less.
       constexpr double share = 0.1;
       const auto through = [&](const unsigned int one, const unsigned int other)
       {
@@ -399,31 +418,36 @@ namespace quoin
                             > share * normal.norm_square();
           }
           if (within)
-            return true;
+            return std::min(std::abs(from), std::abs(to)) / normal.norm();
         }
-        return false;
+        return 0.;
       };
-      return through(f, g) || through(g, f);
+      return std::max(through(f, g), through(g, f));
     }
 
     template <int dim>
     void add_overlaps(const BlockMesh<dim> &mesh, OuterFaces<dim> &faces,
                       MeshReport &report)
     {
-      const auto add = [&](const dealii::Point<dim> &p)
+      constexpr double within = std::numeric_limits<double>::infinity();
+      const auto add = [&](const dealii::Point<dim> &p, const double depth)
       {
-        if (!report.overlaps)
+        if (!report.overlaps || depth > report.overlap_depth)
+        {
           report.overlap_position = in_space(p);
+          report.overlap_depth    = depth;
+        }
         report.overlaps = true;
       };
-      for (unsigned int f = 0; f < faces.n() && !report.overlaps; ++f)
+      for (unsigned int f = 0; f < faces.n(); ++f)
         faces.for_near(
             f,
             [&](const unsigned int g)
             {
-              if (cross(faces, f, g))
+              if (const double depth = crossing_depth(faces, f, g); depth > 0.)
                 add(faces.corner(f, 0)
-                    + 0.5 * (faces.corner(f, 1) - faces.corner(f, 0)));
+                        + 0.5 * (faces.corner(f, 1) - faces.corner(f, 0)),
+                    depth);
             });
       // What lies within another block crosses nothing.
       for (unsigned int b = 0; b < mesh.n_blocks() && !report.overlaps; ++b)
@@ -434,7 +458,7 @@ namespace quoin
           middle += mesh.vertices[v];
         middle = middle / (dim + 1.);
         if (faces.coverage(middle, report.box[1][0]) > 1)
-          add(middle);
+          add(middle, within);
       }
     }
   } // namespace
@@ -521,14 +545,30 @@ namespace quoin
     return text.str();
   }
 
+  std::string MeshReport::position(const dealii::Point<3> &p) const
+  {
+    return dimension == 2 ? point_text(dealii::Point<2>(p[0], p[1]))
+                          : point_text(p);
+  }
+
+  std::string MeshReport::overlap_text() const
+  {
+    return std::isinf(overlap_depth)
+               ? text_of("a block lies within another near ",
+                         position(overlap_position), " m")
+               : text_of("blocks overlap by ", overlap_depth, " m near ",
+                         position(overlap_position), " m");
+  }
+
+  std::string MeshReport::overlap_cure() const
+  {
+    return text_of("Take the ", dimension == 2 ? "surface" : "volume",
+                   " out that is there twice, or cut it out of the other.");
+  }
+
   std::vector<std::string> MeshReport::warnings() const
   {
     std::vector<std::string> result;
-    const auto position = [&](const dealii::Point<3> &p)
-    {
-      return dimension == 2 ? point_text(dealii::Point<2>(p[0], p[1]))
-                            : point_text(p);
-    };
     if (unmatched_size > 0.)
       result.push_back(
           text_of("outer ", dimension == 2 ? "edges" : "faces",
@@ -547,11 +587,9 @@ namespace quoin
           "coordinates of up to ", farthest, " m leave few digits to edges of ",
           shortest_edge, " m. Move the model nearer to the origin."));
     if (overlaps)
-      result.push_back(text_of(
-          "blocks overlap near ", position(overlap_position),
-          " m, where both then have their mass and stiffness. Take the ",
-          dimension == 2 ? "surface" : "volume",
-          " out that is there twice, or cut it out of the other."));
+      result.push_back(overlap_text()
+                       + ", where both then have their mass and stiffness. "
+                       + overlap_cure());
     return result;
   }
 } // namespace quoin

@@ -145,8 +145,10 @@ namespace quoin
     }
     add_velocities(state, 1.);
     before.previous_time_step = state.previous_time_step;
-    if (!pairs.empty())
-      before.nodes = state.nodes;
+    if (pairs.empty())
+      return;
+    before.nodes    = state.nodes;
+    before.velocity = state.velocity;
   }
 
   void BlockHistories::add_force(const Pair &pair, const double share,
@@ -166,6 +168,7 @@ namespace quoin
       if (before.get<JointHistory>().handed_over[segment])
         continue;
       add_traction_forces(model.joints(), segment, before, node_force.data());
+      model.joints().add_dashpot_forces(segment, before, node_force.data());
       const JointSegment &joint = model.joints().segments()[segment];
       for (const unsigned int i : is_lower ? joint.lower : joint.upper)
       {
@@ -183,7 +186,8 @@ namespace quoin
                                           std::vector<Force> &forces) const
   {
     const ContactEdges &edges = contacts->contact_edges();
-    for (unsigned int i = 0; i < all.pairs.size(); ++i)
+    const auto add            = [&](const unsigned int i,
+                         const auto &find) // bool (ContactEndForces &)
     {
       const unsigned int lower = edges[all.pairs[i].lower].block;
       const unsigned int upper = edges[all.pairs[i].upper].block;
@@ -191,14 +195,23 @@ namespace quoin
       {
         const bool is_lower = acts(pairs[p], lower, upper);
         ContactEndForces ends;
-        if ((!is_lower && !acts(pairs[p], upper, lower))
-            || !contacts->near_pairs().end_forces(all, i, ends))
+        if ((!is_lower && !acts(pairs[p], upper, lower)) || !find(ends))
           continue;
         for (const unsigned int n : { is_lower ? 0 : 2, is_lower ? 1 : 3 })
           add_force(pairs[p], ends.share, ends.place[n], ends.force[n],
                     forces[p]);
       }
-    }
+    };
+    for (unsigned int i = 0; i < all.pairs.size(); ++i)
+      add(i, [&](ContactEndForces &ends)
+          { return contacts->near_pairs().end_forces(all, i, ends); });
+    for (unsigned int d = 0; d < contacts->n_dashpots(); ++d)
+      add(contacts->pair_of_dashpot(d),
+          [&](ContactEndForces &ends)
+          {
+            ends = contacts->dashpot_forces(d);
+            return true;
+          });
   }
 
   void BlockHistories::add_up(std::vector<Force> &forces)

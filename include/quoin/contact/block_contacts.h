@@ -158,7 +158,27 @@ namespace quoin
       return near;
     }
 
+    // Dashpots that acted when forces were last added, for histories.
+    unsigned int n_dashpots() const
+    {
+      return dashpot_points.size();
+    }
+    /** Place of a dashpot's pair in ContactState::pairs. */
+    unsigned int pair_of_dashpot(const unsigned int dashpot) const
+    {
+      return dashpot_points[dashpot].pair;
+    }
+    /** Its forces on the ends of both edges. */
+    ContactEndForces dashpot_forces(const unsigned int dashpot) const
+    {
+      const DashpotPoint &at = dashpot_points[dashpot];
+      return near.spread(at.pair, at.lower, at.upper, at.force);
+    }
+
   private:
+    /** Whether blocks move faster against each other than was foreseen when
+        the next check was put off. Collective. */
+    bool moves_faster(const State<2> &state, double dt) const;
     void check(State<2> &state, double dt);
     /** Prepares for the pairs at hand. */
     void bind(const ContactState &contacts);
@@ -234,6 +254,7 @@ namespace quoin
       std::array<double, 2> normal;
       std::array<double, 2> gap;       /**< opening and slip [m] */
       std::array<double, 2> stiffness; /**< per area [Pa/m] */
+      double force[2]{};               /**< on the lower edge [N] */
     };
     PairDashpots dashpots;
     std::vector<DashpotPoint> dashpot_points;

@@ -94,7 +94,10 @@ namespace quoin
 
     /** Positions of the boundary nodes when pairs were last searched [m]. */
     AlignedArray<dealii::Tensor<1, 2>> search_positions;
+    static constexpr std::uint64_t never = -1;
     std::uint64_t next_check = 0; /**< step of the next check of motions */
+    /** What nodes may move against each other in a step until then [m]. */
+    double foreseen          = 0.;
     std::uint64_t n_searches = 0;
     double skin              = 0.; /**< skin of the last search [m] */
     std::uint64_t searched   = 0;  /**< step of the last search */
@@ -107,7 +110,7 @@ namespace quoin
       visitor.between(pairs);
       visitor.same(handed_over);
       visitor.own(search_positions);
-      visitor.same(next_check, n_searches, skin, searched, renewal);
+      visitor.same(next_check, foreseen, n_searches, skin, searched, renewal);
     }
 
     template <typename Archive>

@@ -136,6 +136,10 @@ namespace quoin
     /** Forces of @p pair there; false as contact(). */
     bool end_forces(const ContactState &contacts, unsigned int pair,
                     ContactEndForces &result) const;
+    /** The @p force [N] on the lower edge of a pair at its place @p lower, 0 to
+        1, and against it on the upper one at @p upper, spread to their ends. */
+    ContactEndForces spread(unsigned int pair, double lower, double upper,
+                            const double (&force)[2]) const;
 
   private:
     const ContactEdges &edges;

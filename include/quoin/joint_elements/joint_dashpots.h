@@ -57,6 +57,16 @@ namespace quoin
                     const dealii::Tensor<1, dim> *velocity,
                     dealii::Tensor<1, dim> *force);
 
+    /** Adds those of face @p i alone, with the springs of all that were pressed
+        when add_forces() was last called. */
+    template <int dim, typename Face, typename History>
+    void add_face_forces(unsigned int i, const std::vector<Face> &faces,
+                         const std::vector<JointLaw> &laws,
+                         const NodeRecord<dim> *nodes, const History &history,
+                         const std::uint8_t *gone,
+                         const dealii::Tensor<1, dim> *velocity,
+                         dealii::Tensor<1, dim> *force) const;
+
   private:
     std::vector<PairDashpots::Item> sides; /**< of each face */
     std::vector<JointDamping> all_dampings;

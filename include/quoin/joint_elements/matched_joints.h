@@ -115,6 +115,11 @@ namespace quoin
     {
       dashpots.set_blocks(blocks);
     }
+    /** Adds the forces [N] of the dashpots of face @p i as they were when
+       forces were last added, with the nodes, velocities and histories of @p
+       state. */
+    void add_dashpot_forces(unsigned int i, const State<2> &state,
+                            dealii::Tensor<1, 2> *force) const;
     /** Whether a set has dashpots that act. */
     bool has_dashpots() const
     {

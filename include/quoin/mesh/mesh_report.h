@@ -61,7 +61,10 @@ namespace quoin
      * meshes along one curve or surface do, or a block lies within another.
      */
     bool overlaps = false;
-    dealii::Point<3> overlap_position; /**< position of the first overlap [m] */
+    /** By how much they do, where it is most; infinite: a block lies within
+        another [m]. */
+    double overlap_depth = 0.;
+    dealii::Point<3> overlap_position; /**< where that is [m] */
 
     std::array<dealii::Point<3>, 2> box{}; /**< lower and upper corner [m] */
 
@@ -72,13 +75,20 @@ namespace quoin
           &mixed &joint_size &total_joint_size &shortest_edge &longest_edge
               &smallest_angle &n_joint_ends &n_tied_joint_faces
                   &n_reoriented_cells &unmatched_size &unmatched_position
-                      &overlaps &overlap_position &box;
+                      &overlaps &overlap_depth &overlap_position &box;
     }
 
     /** Lines of text without a final newline. */
     std::string to_text() const;
+    /** Where blocks overlap and by how much, and what to do about it. */
+    std::string overlap_text() const;
+    std::string overlap_cure() const;
     /** Sentences on likely mistakes in the mesh. */
     std::vector<std::string> warnings() const;
+
+  private:
+    /** A place in the words of messages, without unit. */
+    std::string position(const dealii::Point<3> &p) const;
   };
 
   template <int dim>

@@ -249,7 +249,7 @@ namespace
     void compare_resumed()
     {
       State<2> state                       = part.state;
-      state.get<ContactState>().next_check = -1; // search nothing
+      state.get<ContactState>().next_check = ContactState::never;
       State<2> resumed                     = state;
       part.find_forces(part.contacts, state);
       const auto gone_on = part.force;

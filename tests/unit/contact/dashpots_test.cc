@@ -169,6 +169,44 @@ TEST(Dashpots, AddUpToTheShareOfCriticalDampingOfTheTwoMasses)
     }
 }
 
+// As histories of the force between two blocks add them up.
+TEST(Dashpots, ForcesOfEachAddUpToThoseOfAll)
+{
+  for (const bool may_meet : { false, true })
+  {
+    Pressed blocks(may_meet, 3, 0.3);
+    blocks.move(0., -1e-5, 0.004, -0.01);
+    std::array<double, 2> sum{};
+    AlignedArray<dealii::Tensor<1, 2>> force(blocks.nodes->n_local());
+    for (unsigned int i = 0; i < blocks.joints.segments().size(); ++i)
+      blocks.joints.add_dashpot_forces(i, blocks.state, force.data());
+    for (const double f : blocks.on_upper(force))
+      EXPECT_TRUE(!may_meet || f == 0.);
+    const BlockContacts &contacts = *blocks.contacts;
+    EXPECT_EQ(contacts.n_dashpots() > 0, may_meet);
+    for (unsigned int d = 0; d < contacts.n_dashpots(); ++d)
+    {
+      const ContactEndForces ends = contacts.dashpot_forces(d);
+      for (const unsigned int k : { 2, 3 })  // the upper edge is of the upper
+        for (unsigned int c = 0; c < 2; ++c) // block
+          sum[c] += ends.share * ends.force[k][c];
+      EXPECT_NEAR(
+          (ends.force[0] + ends.force[1] + ends.force[2] + ends.force[3])
+              .norm(),
+          0., 1e-9);
+      EXPECT_LT(contacts.pair_of_dashpot(d),
+                blocks.state.get<ContactState>().pairs.size());
+    }
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      sum[c] += blocks.on_upper(force)[c];
+      EXPECT_NEAR(sum[c], blocks.on_upper(blocks.viscous)[c],
+                  1e-9 * std::abs(sum[c]));
+      EXPECT_GT(std::abs(sum[c]), 100.);
+    }
+  }
+}
+
 TEST(Dashpots, AddUpToTheSameWhereBlocksOverlapInPart)
 {
   Pressed blocks(true, 3, 0.3);

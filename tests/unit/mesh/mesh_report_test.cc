@@ -6,6 +6,8 @@
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/mesh_report.h>
 
+#include <cmath>
+
 using namespace quoin;
 using namespace quoin::test;
 
@@ -132,12 +134,17 @@ TEST(MeshReport, FindsBlocksThatOverlap)
   EXPECT_FALSE(report(4., 4., 1.).overlaps);
   EXPECT_FALSE(report(4., 0.1, 0.3).overlaps);
   EXPECT_TRUE(report(3.3, 1.2, 1.).overlaps);
+  EXPECT_NEAR(report(3.3, 1.2, 1.).overlap_depth, 0.7, 1e-12);
+  // On it, a hundredth of an edge too low; less than a thousandth.
+  EXPECT_NEAR(report(1.2, 3.99, 1.).overlap_depth, 0.01, 1e-12);
+  EXPECT_FALSE(report(1.2, 3.9995, 1.).overlaps);
   const MeshReport within = report(1.1, 1.2, 0.3);
-  EXPECT_TRUE(within.overlaps);
+  EXPECT_TRUE(std::isinf(within.overlap_depth));
   EXPECT_NEAR(within.overlap_position.distance(dealii::Point<3>(1.4, 1.5, 0.)),
               0., 0.5);
   ASSERT_EQ(within.warnings().size(), 1U);
-  EXPECT_NE(within.warnings()[0].find("blocks overlap"), std::string::npos);
+  EXPECT_NE(within.warnings()[0].find("a block lies within another"),
+            std::string::npos);
 }
 
 TEST(MeshReport, MeshesOfAnArcThatDoNotMatchAreNoOverlap)
