@@ -192,6 +192,10 @@ namespace quoin
       return *history;
     }
 
+    /** Values given on the boundary in the last step, total fields; those on
+        the interface are not used. */
+    Eigen::VectorXd given_values(const State<2> &state) const;
+
     /** Total fields on the boundary, two entries per element. */
     struct TotalFields
     {
