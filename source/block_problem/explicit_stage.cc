@@ -28,6 +28,7 @@ namespace quoin
       void begin() override
       {
         this->begin_model();
+        warn_of_momentary_forces();
         context.displaced = farthest_node(*system.model, state).distance;
         prepare();
       }
@@ -58,6 +59,9 @@ namespace quoin
       using BlockStage<dim>::state;
       using Checkpoint = Stage::Checkpoint;
 
+      /** Warns if boundaries that absorb keep the forces of waves under way.
+       */
+      void warn_of_momentary_forces() const;
       /** Prepares the stage, which may end before its first step. */
       void prepare();
       /** Whether the stage's last row is due at the next step. */
@@ -79,6 +83,42 @@ namespace quoin
       ExplicitSolver<dim> &solver;
       bool over = false;
     };
+
+    template <int dim>
+    void ExplicitStage<dim>::warn_of_momentary_forces() const
+    {
+      /** Kinetic energy by the largest so far, velocities of a hundredth, and
+          by what is stored, stresses of a ten-thousandth, below which the model
+          is at rest [-]. */
+      constexpr double by_largest = 1e-4, by_stored = 1e-8;
+      if (index == 0)
+        return;
+      // What has come to rest has done so to the accuracy that was asked for.
+      const StageParameters &previous = system.parameters.stages[index - 1];
+      const bool has_settled          = previous.end == StageEnd::static_ratio
+                               && context.outcomes[index - 1].condition.empty();
+      const auto begun = solver.loads().loads_that_hold(stage, previous);
+      if (has_settled || begun.empty())
+        return;
+      double kinetic = 0.;
+      for (unsigned int i = 0; i < system.model->nodes().n_owned(); ++i)
+        kinetic
+            += 0.5 * system.model->mass()[i] * state.velocity[i].norm_square();
+      kinetic = dealii::Utilities::MPI::sum(kinetic, context.run.communicator);
+      if (kinetic <= by_largest * outputs.largest_kinetic()
+          || kinetic <= by_stored * solver.energies().sum(EnergyKind::stored))
+        return;
+      const bool one = begun.size() == 1;
+      log.warning(
+          "stage ", stage.name, ": the model moves, with a kinetic energy of ",
+          kinetic, " J, when the load", one ? " " : "s ", known_names(begun),
+          one ? " begins" : " begin",
+          ". What supports the boundary at this moment is kept constant from "
+          "now on, forces of waves under way included, so that the model "
+          "drifts. Let one load act in this stage and the one before, with a "
+          "function of the time T of the run, or let the motion die out "
+          "between them.");
+    }
 
     template <int dim>
     void ExplicitStage<dim>::prepare()
