@@ -73,6 +73,8 @@ namespace quoin
       bool time_is_over() const;
       /** Throws a RunError if the stage has taken too many steps. */
       bool ends_here(bool balance) const;
+      /** Whether static boundary elements are all that holds the model. */
+      bool rests_on_far_field_alone() const;
       /** Whether a condition ends the stage here: boundary elements finish
           their step. */
       bool condition_ends_here() const;
@@ -236,8 +238,22 @@ namespace quoin
           text_of("stage '", stage.name, "' has not settled within ",
                   stage.maximum_steps, " steps: the unbalanced ratio is ",
                   state.unbalanced_ratio, " instead of ", stage.static_ratio,
-                  ". The model may have no equilibrium under these loads; "
-                  "otherwise raise 'Maximum steps' or damp more."));
+                  ". The model may have no equilibrium under these loads",
+                  rests_on_far_field_alone()
+                      ? ": boundary elements alone resist no net force, such "
+                        "as a weight that no initial stress balances, because "
+                        "in the plane unbounded rock has no equilibrium under "
+                        "it. Hold a boundary, or leave that load out"
+                      : "",
+                  "; otherwise raise 'Maximum steps' or damp more."));
+    }
+
+    template <int dim>
+    bool ExplicitStage<dim>::rests_on_far_field_alone() const
+    {
+      const auto &constraints = solver.stage_loads().constraints;
+      return solver.loads().far.elastostatic_acts && constraints.size() == 1
+             && !solver.stage_loads().nodal.empty();
     }
 
     template <int dim>
