@@ -254,6 +254,7 @@ TEST(BoundaryGeometry, ElementsAlongBlocksAreAboutAsLongAsWanted)
   const auto n_elements        = [&](const double length)
   { return make({ ring }, length, mesh).n_elements(); };
   EXPECT_EQ(n_elements(1.02 * edge), 40U);
+  EXPECT_EQ(n_elements(1.45 * edge), 40U); // two are 1.38 as long
   EXPECT_EQ(n_elements(2. * edge), 20U);
   EXPECT_EQ(n_elements(2.4 * edge), 20U);
   // twelve of three edges, two of two
