@@ -28,6 +28,7 @@ namespace quoin
       void begin() override
       {
         this->begin_model();
+        warn_of_momentary_forces();
         context.displaced = farthest_node(*system.model, state).distance;
         prepare();
       }
@@ -58,6 +59,9 @@ namespace quoin
       using BlockStage<dim>::state;
       using Checkpoint = Stage::Checkpoint;
 
+      /** Warns if boundaries that absorb keep the forces of waves under way.
+       */
+      void warn_of_momentary_forces() const;
       /** Prepares the stage, which may end before its first step. */
       void prepare();
       /** Whether the stage's last row is due at the next step. */
@@ -69,6 +73,8 @@ namespace quoin
       bool time_is_over() const;
       /** Throws a RunError if the stage has taken too many steps. */
       bool ends_here(bool balance) const;
+      /** Whether static boundary elements are all that holds the model. */
+      bool rests_on_far_field_alone() const;
       /** Whether a condition ends the stage here: boundary elements finish
           their step. */
       bool condition_ends_here() const;
@@ -79,6 +85,42 @@ namespace quoin
       ExplicitSolver<dim> &solver;
       bool over = false;
     };
+
+    template <int dim>
+    void ExplicitStage<dim>::warn_of_momentary_forces() const
+    {
+      /** Kinetic energy by the largest so far, velocities of a hundredth, and
+          by what is stored, stresses of a ten-thousandth, below which the model
+          is at rest [-]. */
+      constexpr double by_largest = 1e-4, by_stored = 1e-8;
+      if (index == 0)
+        return;
+      // What has come to rest has done so to the accuracy that was asked for.
+      const StageParameters &previous = system.parameters.stages[index - 1];
+      const bool has_settled          = previous.end == StageEnd::static_ratio
+                               && context.outcomes[index - 1].condition.empty();
+      const auto begun = solver.loads().loads_that_hold(stage, previous);
+      if (has_settled || begun.empty())
+        return;
+      double kinetic = 0.;
+      for (unsigned int i = 0; i < system.model->nodes().n_owned(); ++i)
+        kinetic
+            += 0.5 * system.model->mass()[i] * state.velocity[i].norm_square();
+      kinetic = dealii::Utilities::MPI::sum(kinetic, context.run.communicator);
+      if (kinetic <= by_largest * outputs.largest_kinetic()
+          || kinetic <= by_stored * solver.energies().sum(EnergyKind::stored))
+        return;
+      const bool one = begun.size() == 1;
+      log.warning(
+          "stage ", stage.name, ": the model moves, with a kinetic energy of ",
+          kinetic, " J, when the load", one ? " " : "s ", known_names(begun),
+          one ? " begins" : " begin",
+          ". What supports the boundary at this moment is kept constant from "
+          "now on, forces of waves under way included, so that the model "
+          "drifts. Let one load act in this stage and the one before, with a "
+          "function of the time T of the run, or let the motion die out "
+          "between them.");
+    }
 
     template <int dim>
     void ExplicitStage<dim>::prepare()
@@ -196,8 +238,22 @@ namespace quoin
           text_of("stage '", stage.name, "' has not settled within ",
                   stage.maximum_steps, " steps: the unbalanced ratio is ",
                   state.unbalanced_ratio, " instead of ", stage.static_ratio,
-                  ". The model may have no equilibrium under these loads; "
-                  "otherwise raise 'Maximum steps' or damp more."));
+                  ". The model may have no equilibrium under these loads",
+                  rests_on_far_field_alone()
+                      ? ": boundary elements alone resist no net force, such "
+                        "as a weight that no initial stress balances, because "
+                        "in the plane unbounded rock has no equilibrium under "
+                        "it. Hold a boundary, or leave that load out"
+                      : "",
+                  "; otherwise raise 'Maximum steps' or damp more."));
+    }
+
+    template <int dim>
+    bool ExplicitStage<dim>::rests_on_far_field_alone() const
+    {
+      const auto &constraints = solver.stage_loads().constraints;
+      return solver.loads().far.elastostatic_acts && constraints.size() == 1
+             && !solver.stage_loads().nodal.empty();
     }
 
     template <int dim>

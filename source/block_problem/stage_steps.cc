@@ -147,7 +147,10 @@ namespace quoin
     far.set_incident_field([this](const double time)
                            { return waves->displacements(time); },
                            [this](const double begin, const double end)
-                           { return waves->tractions(begin, end); });
+                           { return waves->tractions(begin, end); },
+                           waves->energy(far.domain().medium,
+                                         far.domain().interface, duration, step)
+                               * system.model->parameters().thickness);
     log.messages(waves->reports());
   }
 

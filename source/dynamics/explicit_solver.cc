@@ -286,6 +286,10 @@ namespace quoin
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->begin_stage(state,
                               previous && all.acts_in(*constraint, *previous));
+    if constexpr (dim == 2)
+      if (all.far.elastostatic_acts && all.far.elastodynamic && previous
+          && all.acts_in(*all.far.elastodynamic, *previous))
+        all.far.elastostatic->follow(*all.far.elastodynamic, state);
     collect_constrained_nodes(state);
     this->begin_pattern(previous, state);
     state.stage_start      = state.time;

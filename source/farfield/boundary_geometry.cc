@@ -359,12 +359,75 @@ namespace quoin
     }
 
     /**
+     * Divides edges that end at the places @p place, from 0 on, among
+     * @p n_parts elements, where their ends are nearest to equal parts: the
+     * places at which elements begin, and the end of the last, by number.
+     */
+    std::vector<std::size_t> divided(const std::vector<double> &place,
+                                     const std::size_t n_parts)
+    {
+      std::vector<std::size_t> ends = { 0 };
+      for (std::size_t part = 0; part < n_parts; ++part)
+      {
+        const double wanted = place.back() * double(part + 1) / n_parts;
+        // At least one edge for this element and each one to come.
+        const std::size_t last = place.size() - 1 - (n_parts - part - 1);
+        std::size_t at         = ends.back() + 1;
+        while (at < last
+               && std::abs(place[at + 1] - wanted)
+                      <= std::abs(place[at] - wanted))
+          ++at;
+        ends.push_back(at);
+      }
+      return ends;
+    }
+
+    /**
+     * The same with elements whose lengths differ least from
+     * @p element_length [m], by the sum of squares, and are at most a fifth
+     * longer where they span more than one edge. A stricter limit would leave
+     * short edges to elements of their own, by which the time step goes.
+     */
+    std::vector<std::size_t> divided_by_length(const std::vector<double> &place,
+                                               const double element_length)
+    {
+      constexpr double longest = 1.2;
+      const std::size_t n      = place.size() - 1;
+      // Of the edges before each place: least sum, and the last element's
+      // begin.
+      std::vector<double> least(n + 1, 0.);
+      std::vector<std::size_t> begin(n + 1, 0);
+      for (std::size_t end = 1; end <= n; ++end)
+      {
+        least[end] = std::numeric_limits<double>::infinity();
+        for (std::size_t at = end; at-- > 0;)
+        {
+          const double length = place[end] - place[at];
+          if (at + 1 < end && length > longest * element_length)
+            break;
+          const double distance = length - element_length;
+          const double sum      = least[at] + distance * distance;
+          if (sum < least[end])
+          {
+            least[end] = sum;
+            begin[end] = at;
+          }
+        }
+      }
+      std::vector<std::size_t> ends = { n };
+      while (ends.back() > 0)
+        ends.push_back(begin[ends.back()]);
+      std::reverse(ends.begin(), ends.end());
+      return ends;
+    }
+
+    /**
      * Leaves out points so that the edges are about as long as wanted; corners
      * of more than 20 degrees stay.
      */
     Curve with_whole_edges(const Curve &curve,
                            const BoundaryCurveParameters &parameters,
-                           double element_length)
+                           const double element_length)
     {
       const double corner      = std::cos(20. * constants::degree);
       const std::size_t n      = curve.points.size();
@@ -372,8 +435,6 @@ namespace quoin
       double total             = 0.;
       for (std::size_t k = 0; k < n_edge; ++k)
         total += (curve.end(k) - curve.points[k]).norm();
-      if (parameters.n_elements > 0)
-        element_length = total / parameters.n_elements;
 
       // Begin at a corner, if a closed curve has one.
       const auto is_corner = [&](const std::size_t k)
@@ -395,8 +456,7 @@ namespace quoin
       result.closed = curve.closed;
       for (std::size_t k = 0; k < n_edge;)
       {
-        // A piece from corner to corner, cut where its points are nearest to
-        // equal parts.
+        // A piece from corner to corner.
         std::vector<double> place = { 0. };
         std::size_t end           = k;
         do
@@ -407,21 +467,14 @@ namespace quoin
           ++end;
         } while (end < n_edge && !is_corner((first + end) % n));
         const std::size_t n_parts = std::clamp<std::size_t>(
-            std::size_t(std::lround(place.back() / element_length)), 1,
-            end - k);
-        std::size_t at = 0;
-        for (std::size_t part = 0; part < n_parts; ++part)
-        {
-          result.points.push_back(curve.points[(first + k + at) % n]);
-          const double wanted = place.back() * double(part + 1) / n_parts;
-          // At least one edge for this element and each one to come.
-          const std::size_t last = end - k - (n_parts - part - 1);
-          ++at;
-          while (at < last
-                 && std::abs(place[at + 1] - wanted)
-                        <= std::abs(place[at] - wanted))
-            ++at;
-        }
+            std::size_t(
+                std::lround(place.back() / total * parameters.n_elements)),
+            1, end - k);
+        const auto ends = parameters.n_elements > 0
+                              ? divided(place, n_parts)
+                              : divided_by_length(place, element_length);
+        for (std::size_t part = 0; part + 1 < ends.size(); ++part)
+          result.points.push_back(curve.points[(first + k + ends[part]) % n]);
         k = end;
       }
       if (!curve.closed)

@@ -213,9 +213,11 @@ namespace quoin
                       1000000);
       entries.nonnegative(
           "Element length", boundary.element_length,
-          "Longest element or, if elements are graded, the shortest one; 0: "
-          "'Element length' of section 'Boundary elements', and if that is 0 "
-          "as well, the edges of the mesh [m]");
+          "Longest element or, if elements are graded, the shortest one; "
+          "those of an interface span whole edges of the blocks, and with "
+          "several are up to a fifth longer; 0: 'Element length' of section "
+          "'Boundary elements', and if that is 0 as well, the edges of the "
+          "mesh [m]");
       entries.within(
           "Grading", boundary.grading, 1e-6, 1e6,
           "Ratio of the length of the last element to that of the first one of "

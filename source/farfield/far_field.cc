@@ -400,6 +400,14 @@ namespace quoin
       finish_element_step(state);
   }
 
+  VectorXd FarField::given_values(const State<2> &state) const
+  {
+    const auto n_steps = double(state.get<FarFieldState>().n_steps);
+    if (!problem.given || n_steps == 0.)
+      return VectorXd::Zero(Eigen::Index(problem.boundary.n_unknowns()));
+    return problem.given((n_steps - 1.) * dt, n_steps * dt);
+  }
+
   FarField::TotalFields FarField::total_fields(const State<2> &state) const
   {
     const FarFieldState &far = state.get<FarFieldState>();

@@ -146,8 +146,17 @@ namespace quoin
                          + " N at t = 0 already. Let it begin at 0.");
       return;
     }
-    const double start
-        = field.displacements(boundary, 0.).lpNorm<Eigen::Infinity>();
+    const auto motion = [&](const double t)
+    { return field.displacements(boundary, t).lpNorm<Eigen::Infinity>(); };
+    const double start = motion(0.);
+    // How much later the wave must come so that little precedes it at 0.
+    const auto delay = [&]()
+    {
+      double result = time_step;
+      while (!(motion(-result) <= 1e-3 * peak) && result < 1e3 * duration)
+        result *= 1.1;
+      return result;
+    };
     if (!(start <= 1e-3 * peak))
       throw InputError(
           section + "at t = 0 the wave moves the boundary by "
@@ -156,8 +165,10 @@ namespace quoin
                  ? ", more than a thousandth of the peak, " + number_text(peak)
                        + " m. Its displacement contains the Hilbert transform "
                          "of the signal, which precedes the wave, far ahead if "
-                         "the signal has a mean. Let it start later, or take "
-                         "one without a mean, such as 'wavelet Ricker'."
+                         "the signal has a mean. Let it start "
+                       + number_text(delay())
+                       + " s later, or, if it has a mean, take one without, "
+                         "such as 'wavelet Ricker'."
                  : std::string(". Everything must be at rest then: let it "
                                "start later, and be 0 before.")));
     if (field.has_precursors() && peak > 0.)
@@ -175,6 +186,32 @@ namespace quoin
     for (const auto &wave : waves)
       sum += wave->displacement(x, time);
     return sum;
+  }
+
+  double IncidentWaves::energy(const ElasticMedium &medium,
+                               const std::vector<unsigned int> &elements,
+                               const double duration,
+                               const double time_step) const
+  {
+    constexpr std::size_t n_places = 16;
+    const std::size_t stride       = 1 + (elements.size() - 1) / n_places;
+    double length = 0., square = 0.; // of v over time [m^2/s]
+    for (std::size_t k = 0; k < elements.size(); ++k)
+    {
+      const BoundaryElement &element = boundary.elements[elements[k]];
+      length += element.length();
+      if (k % stride != 0)
+        continue;
+      auto last = displacement(element.middle(), 0.);
+      for (double t = time_step; t < duration + time_step; t += time_step)
+      {
+        const auto now = displacement(element.middle(), t);
+        square += (now - last).norm_square() / time_step;
+        last = now;
+      }
+    }
+    const double places = double((elements.size() - 1) / stride + 1);
+    return medium.density * medium.c2 * length * square / places;
   }
 
   VectorXd IncidentWaves::displacements(const double time) const

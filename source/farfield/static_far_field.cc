@@ -49,6 +49,7 @@ namespace quoin
         = exterior_stiffness(domain.boundary, domain.medium,
                              Projection::galerkin, unknowns, traction_is_given);
     stiffness          = exterior.traction;
+    from_given         = exterior.traction_by_given;
     relative_asymmetry = exterior.asymmetry;
     areas.resize(stiffness.rows());
     for (Eigen::Index k = 0; k < areas.size(); ++k)
@@ -74,15 +75,48 @@ namespace quoin
     prepared_step = 0.;
   }
 
-  void StaticFarField::start(const std::vector<CapturedNode<2>> &captured,
+  void StaticFarField::start(const StepContext &step,
+                             const std::vector<CapturedNode<2>> &captured,
                              State<2> &state)
   {
     StaticFarFieldState &far = state.get<StaticFarFieldState>();
     far.active               = true;
-    for (const unsigned int c : captured_positions)
-      append_vector(far.held, captured[c].begun - captured[c].force);
     gather_displacement(captured, u);
-    far.origin.assign(u.data(), u.data() + u.size());
+    if (far.origin.empty())
+    {
+      for (const unsigned int c : captured_positions)
+        append_vector(far.held, captured[c].begun - captured[c].force);
+      far.origin.assign(u.data(), u.data() + u.size());
+    }
+    // The energy counts from the middle of the last step, see book_stored().
+    transfer.gather([&](const unsigned int k)
+                    { return captured[captured_positions[k]].velocity; },
+                    v_before);
+    before = u - VectorXd::Map(far.origin.data(), u.size())
+             - 0.5 * step.dt_before * v_before;
+    far.stored_before -= energy_of(before);
+  }
+
+  void StaticFarField::follow(const FarField &waves, State<2> &state) const
+  {
+    const FarFieldState &last = state.get<FarFieldState>();
+    StaticFarFieldState &far  = state.get<StaticFarFieldState>();
+    if (!last.active)
+      return;
+    far.origin           = last.origin;
+    far.held             = last.held;
+    const VectorXd given = from_given * waves.given_values(state);
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const auto force = thickness * transfer.force(k, given);
+      for (unsigned int d = 0; d < force.dimension; ++d)
+        far.held[2 * k + d] -= force[d];
+    }
+  }
+
+  double StaticFarField::energy_of(const VectorXd &motion) const
+  {
+    return 0.5 * (stiffness * motion).cwiseProduct(areas).dot(motion);
   }
 
   void StaticFarField::gather_displacement(
@@ -118,7 +152,7 @@ namespace quoin
   {
     StaticFarFieldState &far = state.get<StaticFarFieldState>();
     if (!far.active)
-      start(captured, state);
+      start(step, captured, state);
     prepare_step(step, captured);
 
     const auto node = [&](const unsigned int k) -> const CapturedNode<2> &

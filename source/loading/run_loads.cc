@@ -231,6 +231,27 @@ namespace quoin
   }
 
   template <int dim>
+  std::vector<std::string>
+  RunLoads<dim>::loads_that_hold(const StageParameters &stage,
+                                 const StageParameters &previous) const
+  {
+    std::vector<std::string> result;
+    for (const auto &constraint : constraints)
+    {
+      bool follows_waves = false;
+      if constexpr (dim == 2)
+        follows_waves = constraint.get() == far.elastostatic
+                        && far.elastodynamic
+                        && acts_in(*far.elastodynamic, previous);
+      if (constraint->traits().kind == MotionKind::absorbing
+          && acts_in(*constraint, stage) && !acts_in(*constraint, previous)
+          && !follows_waves)
+        result.push_back(constraint->name());
+    }
+    return result;
+  }
+
+  template <int dim>
   bool RunLoads<dim>::has_added_mass(const std::string &load) const
   {
     return std::count(with_added_mass.begin(), with_added_mass.end(), load) > 0;

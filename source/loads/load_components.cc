@@ -185,10 +185,13 @@ namespace quoin
         if (text.rfind(word + " ", 0) == 0)
         {
           const std::string function = text.substr(word.size());
+          // First what is wrong with the function itself.
+          LoadComponent made
+              = made_component(section, name, quantity, function);
           if (quantity != LoadQuantity::force)
             refuse_other_derivative(section, name, function,
                                     derivative_of(quantity));
-          return made_component(section, name, quantity, function);
+          return made;
         }
         known += " or begin with '" + word + "'";
       }
@@ -231,9 +234,10 @@ namespace quoin
                                         "'platen'."
                                       : "."));
       }
+    LoadComponent made = made_component(section, name, quantity, text);
     if (quantity != LoadQuantity::force || type == "gravity")
       refuse_other_derivative(section, name, text, derivative_of(quantity));
-    return made_component(section, name, quantity, text);
+    return made;
   }
 
   LoadComponent pressure_component(const ParameterSection &section,

@@ -203,7 +203,8 @@ namespace quoin
 
       // Before plausibility, which looks at more than a run uses.
       for (const auto &doubts :
-           { input.idle_overrides(prm), implausible_values(top, parameters) })
+           { input.idle_overrides(prm), implausible_values(top, parameters),
+             idle_damping(top, parameters) })
         parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
                                    doubts.end());
     }
@@ -244,6 +245,8 @@ namespace quoin
     parameters.effective = effective.str();
     parameters.time_files
         = time_files(parameters.effective, ParameterSection(prm, file));
+    for (const std::string &warning : long_time_files(parameters))
+      parameters.warnings.push_back(warning);
     return parameters;
   }
 

@@ -2,10 +2,13 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/exceptions.h>
 #include <quoin/base/finite_numbers.h>
 #include <quoin/base/known_names.h>
+#include <quoin/base/noted_parameters.h>
 #include <quoin/base/number_text.h>
 #include <quoin/parameters/plausibility.h>
+#include <quoin/signals/record.h>
 
 #include <algorithm>
 #include <cmath>
@@ -289,6 +292,97 @@ namespace quoin
         warnings.push_back("load " + load.name
                            + ": gravity acts upwards. Give 'Vertical' a minus "
                              "sign, such as -9.81, unless that is meant.");
+    }
+    return warnings;
+  }
+
+  std::vector<std::string> idle_damping(const ParameterSection &top,
+                                        const Parameters &parameters)
+  {
+    std::vector<std::string> warnings;
+    if (parameters.is_implicit)
+      return warnings;
+    // Options may change the damping of a file that is made for another one;
+    // of their own entries that nothing reads there is a warning in any case.
+    const auto set_in_file = [&](const std::string &entry)
+    {
+      const auto place = parameters.places.find(entry);
+      return place != parameters.places.end()
+             && place->second.find(" with --set") == std::string::npos;
+    };
+    const ParameterSection section(top, "Stages");
+    for (const StageParameters &stage : parameters.stages)
+    {
+      const std::string path = "Stages/" + stage.name;
+      const auto where       = [&](const std::string &entry)
+      { return parameters.places.at(entry) + section_phrase(path) + ": "; };
+      const std::string damping = path + "/Damping";
+      const bool was_set        = parameters.places.count(damping) > 0;
+      if (stage.damping == DampingType::rayleigh)
+      {
+        if (stage.mass_coefficient + stage.stiffness_coefficient == 0.)
+          warnings.push_back(
+              where(damping)
+              + "'Damping = Rayleigh' dissipates nothing, as both of its "
+                "coefficients are 0. Give 'Rayleigh stiffness coefficient' or "
+                "'Rayleigh mass coefficient', or take 'Damping = none'.");
+        continue;
+      }
+      if (was_set && !set_in_file(damping))
+        continue;
+      const ParameterSection own(section, stage.name);
+      for (const std::string name :
+           { "Rayleigh mass coefficient", "Rayleigh stiffness coefficient" })
+      {
+        const auto values = finite_numbers({ own.text(name) });
+        if (set_in_file(path + "/" + name)
+            && !(values.size() == 1 && values[0] == 0.))
+          warnings.push_back(
+              where(path + "/" + name) + "'" + name + " = " + own.text(name)
+              + "' has no effect: 'Damping = " + own.text("Damping")
+              + "' does not read it. Give the stage 'Damping = Rayleigh', or "
+                "remove it.");
+      }
+    }
+    return warnings;
+  }
+
+  std::vector<std::string> long_time_files(const Parameters &parameters)
+  {
+    /** How many times as long as the run, with how many samples in it and at
+        least in all: few may be a slow change. */
+    constexpr double times_run        = 20.;
+    constexpr std::ptrdiff_t n_in_run = 3, n_in_all = 10;
+    double end = 0.;
+    for (const StageParameters &stage : parameters.stages)
+      if (stage.end == StageEnd::time)
+        end += stage.duration;
+    std::vector<std::string> warnings;
+    for (const std::string &file : parameters.time_files)
+    {
+      TimeTable samples;
+      try
+      {
+        samples = Record::read(file).samples();
+      }
+      catch (const InputError &)
+      {
+        continue; // a table of one line
+      }
+      const double last = samples.back().first;
+      const auto n
+          = std::count_if(samples.begin(), samples.end(),
+                          [&](const std::pair<double, double> &sample) {
+                            return sample.first >= 0. && sample.first <= end;
+                          });
+      if (end > 0. && last > times_run * end && n < n_in_run
+          && std::ptrdiff_t(samples.size()) >= n_in_all)
+        warnings.push_back(text_of(
+            "the times in '", file, "' go on to ", last,
+            " s, but the run ends "
+            "after ",
+            end, " s, within ", n, " of its ", samples.size(),
+            " lines. If they are in milliseconds, change them to seconds."));
     }
     return warnings;
   }

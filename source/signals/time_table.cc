@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_table.h>
+#include <quoin/base/number_text.h>
 #include <quoin/signals/time_table.h>
 
 #include <algorithm>
@@ -14,7 +15,13 @@ namespace quoin
     TimeTable table;
     for (const TableRow &row : read_number_table(name, 2, "a time and a value"))
     {
-      if (!table.empty() && row.values[0] <= table.back().first)
+      if (!table.empty() && row.values[0] == table.back().first)
+        throw InputError("the table '" + name + "' has the time "
+                         + number_text(row.values[0]) + " of line "
+                         + std::to_string(row.line)
+                         + " twice. Times must grow: let a jump take a little "
+                           "time.");
+      if (!table.empty() && row.values[0] < table.back().first)
         throw InputError("the table '" + name + "' goes back in time in line "
                          + std::to_string(row.line) + ".");
       table.emplace_back(row.values[0], row.values[1]);

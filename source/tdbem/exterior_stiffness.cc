@@ -80,11 +80,25 @@ namespace quoin
       length(j)            = lengths(interface[j] / 2);
     }
     const MatrixXd solution = factors.solve(loads);
+
+    MatrixXd given = MatrixXd::Zero(n + 2, n);
+    for (Index k = 0; k < n; ++k)
+      if (traction_is_given[k])
+      {
+        given.col(k).head(n) = matrices.G.col(k);
+        given(n + k % 2, k)  = -lengths(k / 2) / (unit * diameter);
+      }
+      else
+        given.col(k).head(n) = -matrices.H.col(k);
+    for (const unsigned int k : interface)
+      given.col(k).setZero();
+    const MatrixXd of_given = factors.solve(given);
     MatrixXd forces(loads.cols(), loads.cols());
     for (Index i = 0; i < forces.rows(); ++i)
       forces.row(i) = length(i) * unit * solution.row(interface[i]);
 
     ExteriorStiffness result;
+    result.traction_by_given  = unit * of_given(interface, Eigen::all);
     const MatrixXd transposed = forces.transpose();
     result.asymmetry          = (forces - transposed).cwiseAbs().maxCoeff()
                        / forces.cwiseAbs().maxCoeff();

@@ -218,6 +218,30 @@ def quiet_run(quoin, folder):
         raise Failure("exit status %d; it printed:\n%s" % (status, printed))
 
 
+def boundary_begins_in_motion(quoin, folder):
+    """A boundary that absorbs keeps the forces of waves that are under way when
+    it begins, and says so; but not if it goes on, or the model has settled."""
+    prm = prepare(folder)
+    words = [quoin, prm, "--quiet"]
+    for setting in ("Loads/Names=base, push, out",
+                    "Loads/out/Type=viscous boundary",
+                    "Loads/out/Boundary=right", "Stages/first/Damping=none",
+                    "Stages/second/Loads=base, push, out"):
+        words += ["--set", setting]
+    warning = ["Warning: stage second: the model moves", "when the load out "
+               "begins", "Let one load act in this stage and the one before"]
+    status, printed = run(words)
+    expect(status, printed, 0, warning)
+    for settings in (["Stages/first/Loads=base, push, out"],
+                     ["Stages/first/End=static ratio",
+                      "Stages/first/Damping=local"]):
+        more = [word for setting in settings for word in ("--set", setting)]
+        status, printed = run(words + more)
+        expect(status, printed, 0, [])
+        if "the model moves" in printed:
+            raise Failure("a warning without need:\n%s" % printed)
+
+
 def boundary_case_runs(quoin, folder):
     """The base case of boundary elements likewise; it ends where it should,
     and a value that is no number ends it earlier."""
@@ -1113,7 +1137,8 @@ def full_disk_on_two_ranks(quoin, folder):
     return fill_disk(quoin, folder, 2)
 
 
-FUNCTIONS = [base_case_runs, quiet_run, boundary_case_runs,
+FUNCTIONS = [base_case_runs, quiet_run, boundary_begins_in_motion,
+             boundary_case_runs,
              check_writes_nothing, error_in_an_included_file, schema, no_arguments,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,

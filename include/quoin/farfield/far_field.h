@@ -158,15 +158,23 @@ namespace quoin
 
     /**
      * Incident field on the whole boundary: displacements at a time
-     * [m], and the tractions of the step from begin to end [Pa]. Must be
+     * [m], and the tractions of the step from begin to end [Pa]; @p energy:
+     * scale of what it brings through the interface in the run [J]. Must be
      * called before it first acts.
      */
     void set_incident_field(
         std::function<Eigen::VectorXd(double time)> displacement,
-        std::function<Eigen::VectorXd(double begin, double end)> traction)
+        std::function<Eigen::VectorXd(double begin, double end)> traction,
+        const double energy = 0.)
     {
       incident_displacement = std::move(displacement);
       incident_traction     = std::move(traction);
+      energy_of_incident    = energy;
+    }
+    /** Scale of the energy of the incident field [J]; 0: there is none. */
+    double incident_energy() const
+    {
+      return energy_of_incident;
     }
 
     /** 0 before set_time_step() [s]. */
@@ -191,6 +199,10 @@ namespace quoin
     {
       return *history;
     }
+
+    /** Values given on the boundary in the last step, total fields; those on
+        the interface are not used. */
+    Eigen::VectorXd given_values(const State<2> &state) const;
 
     /** Total fields on the boundary, two entries per element. */
     struct TotalFields
@@ -231,6 +243,7 @@ namespace quoin
     std::function<Eigen::VectorXd(double)>
         incident_displacement; /**< null: no incident wave */
     std::function<Eigen::VectorXd(double, double)> incident_traction;
+    double energy_of_incident = 0.;
     double thickness;
     MPI_Comm communicator;
     bool is_first_rank;

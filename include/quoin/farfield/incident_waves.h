@@ -46,6 +46,15 @@ namespace quoin
      */
     Eigen::VectorXd tractions(double begin, double end) const;
 
+    /**
+     * Scale of the energy that the waves bring through @p elements of the
+     * boundary [J/m]: rho c2 v^2 over their length and the @p duration [s], v
+     * from displacements @p time_step [s] apart at a few of them.
+     */
+    double energy(const ElasticMedium &medium,
+                  const std::vector<unsigned int> &elements, double duration,
+                  double time_step) const;
+
     /** For the log. */
     const std::vector<std::string> &reports() const
     {

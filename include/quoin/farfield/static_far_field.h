@@ -21,9 +21,9 @@ namespace quoin
 
     bool active = false;        /**< whether it has begun */
     std::vector<double> held;   /**< forces on its nodes [N] */
-    std::vector<double> origin; /**< motion of elements at its start [m] */
+    std::vector<double> origin; /**< motion of elements that counts as 0 [m] */
     double stored = 0.;         /**< elastic energy of the domain [J] */
-    /** Elastic energy when the far field began [J]. */
+    /** What stored has beside the energy of the motion since origin [J]. */
     double stored_before = 0.;
 
     template <typename Visitor>
@@ -47,10 +47,11 @@ namespace quoin
    *
    * What forces are unbalanced on the interface when it first acts are held
    * from there on; to them comes -K (u - u_0), K of ExteriorStiffness and u_0
-   * the motion at that time. It acts implicitly, as K times the mean
-   * (u_{n-1} + 2 u_n + u_{n+1}) / 4: the same as adding dt^2 K / 4 to the
-   * masses of the interface's nodes, which cannot lower the critical step and
-   * does not change the equilibrium of the blocks.
+   * the motion at that time. After a stage of waves both are those with which
+   * these began: momentary forces of waves under way are left out. It acts
+   * implicitly, as K times the mean (u_{n-1} + 2 u_n + u_{n+1}) / 4: the same
+   * as adding dt^2 K / 4 to the masses of the interface's nodes, which cannot
+   * lower the critical step and does not change the equilibrium of the blocks.
    */
   class StaticFarField : public MotionConstraint<2>
   {
@@ -68,6 +69,14 @@ namespace quoin
     {
       return relative_asymmetry;
     }
+
+    /**
+     * Goes on from the stage in which @p waves acted, once this stage has
+     * begun: forces are held, and motion counts, from the state in which the
+     * waves began. Values given on the rest of the boundary stay as they are in
+     * the end.
+     */
+    void follow(const FarField &waves, State<2> &state) const;
 
     // For solvers of equilibrium.
 
@@ -116,7 +125,10 @@ namespace quoin
                  State<2> &state) override;
 
   private:
-    void start(const std::vector<CapturedNode<2>> &captured, State<2> &state);
+    void start(const StepContext &step,
+               const std::vector<CapturedNode<2>> &captured, State<2> &state);
+    /** Elastic energy [J] of a motion of the elements [m]. */
+    double energy_of(const Eigen::VectorXd &motion) const;
     void prepare_step(const StepContext &step,
                       const std::vector<CapturedNode<2>> &captured);
     void gather_displacement(const std::vector<CapturedNode<2>> &captured,
@@ -129,6 +141,8 @@ namespace quoin
     /** Areas of the degrees of freedom of the interface [m^2]. */
     Eigen::VectorXd areas;
     Eigen::MatrixXd stiffness; /**< traction by displacement [Pa/m] */
+    /** Traction by what is given on the whole boundary. */
+    Eigen::MatrixXd from_given;
     double relative_asymmetry = 0.;
 
     /** For the block steps, as long as these are the same; 0: not made. */

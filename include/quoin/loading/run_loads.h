@@ -53,6 +53,14 @@ namespace quoin
      */
     bool acts_in(const MotionConstraint<dim> &constraint,
                  const StageParameters &stage) const;
+    /**
+     * Boundaries that absorb in @p stage but not in @p previous, before it:
+     * they keep constant what forces support their nodes when they begin. The
+     * static far field after waves knows its forces and is none of them.
+     */
+    std::vector<std::string>
+    loads_that_hold(const StageParameters &stage,
+                    const StageParameters &previous) const;
     /** Whether @p load adds the mass of water, so that it has a resultant. */
     bool has_added_mass(const std::string &load) const;
     /** Throws an InputError about loads that @p stage names wrongly. */

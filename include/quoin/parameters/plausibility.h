@@ -22,6 +22,21 @@ namespace quoin
    */
   std::vector<std::string> implausible_values(const ParameterSection &top,
                                               const Parameters &parameters);
+
+  /**
+   * Warnings about stages of the explicit solver whose file gives coefficients
+   * of Rayleigh damping without that, or that without coefficients. @p top is
+   * the file of @p parameters.
+   */
+  std::vector<std::string> idle_damping(const ParameterSection &top,
+                                        const Parameters &parameters);
+
+  /**
+   * Warnings about tables and records of @p parameters that last far longer
+   * than all stages, of which the run reads next to nothing: their times may
+   * be in milliseconds. None if no stage ends by time.
+   */
+  std::vector<std::string> long_time_files(const Parameters &parameters);
 } // namespace quoin
 
 #endif

@@ -23,6 +23,11 @@ namespace quoin
      */
     Eigen::MatrixXd traction;
     /**
+     * The same by what is given on each unknown of the boundary, displacement
+     * [Pa/m] or traction [-], the interface being held; 0 on the interface.
+     */
+    Eigen::MatrixXd traction_by_given;
+    /**
      * Largest difference of the matrix of forces from its transpose, by its
      * largest entry, before the mean of both was taken.
      */

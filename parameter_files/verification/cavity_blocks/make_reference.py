@@ -57,6 +57,13 @@ def main():
             delimiter=",", fmt="%.6g", comments="",
             header="time [s],u_wall [m],u_inside [m],hoop [Pa]")
 
+    # 2 MPa at rest: u = p a^2 / (2 mu r).
+    wall = 2 * displacement
+    np.savetxt(os.path.join(HERE, "reference_static.csv"),
+               [[1, wall, -wall, wall / 1.5]], delimiter=",", fmt="%.9g",
+               comments="",
+               header="time [s],u_wall [m],u_left [m],u_inside [m]")
+
 
 if __name__ == "__main__":
     main()

@@ -235,6 +235,38 @@ TEST(BoundaryGeometry, BlocksThatTouchMakeOneCurve)
       2u);
 }
 
+// They span whole edges, as evenly as these allow.
+TEST(BoundaryGeometry, ElementsAlongBlocksAreAboutAsLongAsWanted)
+{
+  constexpr unsigned int n = 40;
+  MeshData<2> mesh;
+  mesh.face_names = { "", "ring" };
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    const double angle = 2. * M_PI * k / n;
+    mesh.vertices.emplace_back(2. * std::cos(angle), 2. * std::sin(angle));
+    mesh.faces.push_back({ { k, (k + 1) % n } });
+    mesh.face_name.push_back(1);
+  }
+  const double edge            = 4. * std::sin(M_PI / n); // 0.314 m
+  BoundaryCurveParameters ring = curves({ "ring" }, DomainSide::outside);
+  ring.shape                   = BoundaryShape::interface;
+  const auto n_elements        = [&](const double length)
+  { return make({ ring }, length, mesh).n_elements(); };
+  EXPECT_EQ(n_elements(1.02 * edge), 40U);
+  EXPECT_EQ(n_elements(1.45 * edge), 40U); // two are 1.38 as long
+  EXPECT_EQ(n_elements(2. * edge), 20U);
+  EXPECT_EQ(n_elements(2.4 * edge), 20U);
+  // twelve of three edges, two of two
+  EXPECT_EQ(n_elements(3.1 * edge), 14U);
+  EXPECT_NEAR(make({ ring }, 3.1 * edge, mesh).lengths().minCoeff(),
+              4. * std::sin(2. * M_PI / n), 1e-12);
+  EXPECT_EQ(n_elements(0.5 * edge), 40U);
+  // A number is kept, whatever the lengths.
+  ring.n_elements = 38;
+  EXPECT_EQ(n_elements(0.), 38U);
+}
+
 TEST(BoundaryGeometry, Complaints)
 {
   const MeshData<2> mesh = square_mesh();

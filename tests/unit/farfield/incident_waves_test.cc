@@ -94,3 +94,38 @@ TEST(IncidentWaves, MustNotHaveArrivedAtTheStart)
   EXPECT_NE(message.find("section 'Incident waves/early'"), std::string::npos);
   EXPECT_NE(message.find("at t = 0"), std::string::npos);
 }
+
+// Of two along the same way it is that of their sum.
+TEST(IncidentWaves, BringTheEnergyOfTheirVelocity)
+{
+  const Boundary boundary = level_line();
+  BoundaryElementParameters settings;
+  settings.waves = { wave("sv", IncidentWaveType::plane_sv, 1e-3),
+                     wave("more", IncidentWaveType::plane_sv, 2e-3) };
+  // Integral of the square of the derivative of Ricker's wavelet.
+  const double square = 3.75 * M_PI * 5. * std::sqrt(0.5 * M_PI) * 9e-6;
+  EXPECT_NEAR(
+      waves_on(boundary, settings).energy(medium, { 0, 1 }, duration, time_step)
+          / (2000. * 200. * 2. * square),
+      1., 1e-2);
+}
+
+TEST(IncidentWaves, SayHowMuchLaterTheirPrecursorsAllow)
+{
+  Boundary boundary;
+  boundary.add_curve({ { 1., 0. }, { 0., 0. }, { -1., 0. } }, false);
+  BoundaryElementParameters settings;
+  const auto message = [&](const double delay)
+  {
+    settings.waves = { wave("early", IncidentWaveType::rayleigh, 1e-3, delay) };
+    settings.waves[0].half_plane = true;
+    settings.waves[0].angle      = 0.5 * M_PI;
+    return message_of<InputError>([&] { waves_on(boundary, settings); });
+  };
+  const std::string early = message(0.2), words = "Let it start ";
+  const auto place = early.find(words);
+  ASSERT_NE(place, std::string::npos) << early;
+  const double later = std::stod(early.substr(place + words.size()));
+  EXPECT_EQ(message(0.2 + later), "nothing was thrown");
+  EXPECT_NE(message(0.2 + 0.8 * later), "nothing was thrown");
+}

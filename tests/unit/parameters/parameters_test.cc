@@ -318,6 +318,54 @@ TEST(Parameters, ImplausibleValues)
       "usual: in MPa it would be 1.67e+10 Pa. Check the unit.");
 }
 
+TEST(Parameters, RayleighDampingThatDoesNotAct)
+{
+  const std::string local = "set Damping = local",
+                    mass  = "\n    set Rayleigh mass coefficient = ";
+  const auto warnings     = [&](const std::string &damping,
+                            const std::vector<std::string> &overrides = {})
+  { return Case(with(local, damping)).read(overrides).warnings; };
+  const auto idle = warnings(local + mass + "3");
+  ASSERT_EQ(idle.size(), 1U);
+  for (const char *part :
+       { "case.prm, line ", "section 'Stages/shear'",
+         "'Rayleigh mass coefficient = 3' has no effect", "'Damping = local'" })
+    EXPECT_NE(idle[0].find(part), std::string::npos) << idle[0];
+  const auto none = warnings("set Damping = Rayleigh");
+  ASSERT_EQ(none.size(), 1U);
+  EXPECT_NE(none[0].find("'Damping = Rayleigh' dissipates nothing"),
+            std::string::npos);
+  EXPECT_TRUE(warnings("set Damping = Rayleigh" + mass + "3").empty());
+  EXPECT_TRUE(warnings(local + mass + "0").empty());
+  // A file that is made for Rayleigh damping, tried with another one.
+  EXPECT_TRUE(warnings("set Damping = Rayleigh" + mass + "3",
+                       { "Stages/shear/Damping=none" })
+                  .empty());
+}
+
+TEST(Parameters, TimesThatMayBeMilliseconds)
+{
+  const auto warnings = [](const unsigned int n, const double step)
+  {
+    const Case it(
+        with("set Vertical = 1e6 * t", "set Vertical = table t.csv times 1e6"));
+    std::ofstream table(it.directory / "t.csv");
+    for (unsigned int k = 0; k < n; ++k)
+      table << step * k << ", " << k % 2 << "\n";
+    table.close();
+    return it.read().warnings;
+  };
+  // 0.75 s and a stage that ends at rest
+  ASSERT_EQ(warnings(200, 1.).size(), 1U);
+  EXPECT_NE(
+      warnings(200, 1.)[0].find("t.csv' go on to 199 s, but the run ends "
+                                "after 0.75 s, within 1 of its 200 lines"),
+      std::string::npos);
+  EXPECT_TRUE(warnings(200, 0.2).empty()); // four in the run
+  EXPECT_TRUE(warnings(12, 1.).empty());   // it ends not much later
+  EXPECT_TRUE(warnings(5, 100.).empty());  // a slow change
+}
+
 TEST(Parameters, WrongWord)
 {
   expect_refused(with("plane stress", "plane strains"),

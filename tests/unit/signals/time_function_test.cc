@@ -114,7 +114,9 @@ TEST(TimeFunction, BadTables)
     EXPECT_NE(message.find("t.csv"), std::string::npos) << message;
   };
   expect(complaint("time,v\n0,1\n2,1\n1,3\n"), "goes back in time in line 4");
-  expect(complaint("0,1\n0,2\n"), "goes back in time in line 2");
+  expect(complaint("0,1\n0,2\n"), "has the time 0 of line 2 twice");
+  expect(complaint("0,0\n0.02,0\n0.02,1\n"),
+         "has the time 0.02 of line 3 twice");
   expect(complaint("0,1\n1,2\n2;3\n"), "line 3");
   expect(complaint("0,1\n1\n"), "is not a time and a value");
   expect(complaint("0;0\n1,1\n2,2\n"), "line 1");

@@ -202,3 +202,33 @@ TEST(ExteriorStiffness, HalfPlaneAroundASemicircle)
   EXPECT_LT((result.traction * along).cwiseAbs().maxCoeff(), 1e-9 * largest);
   EXPECT_LT(result.asymmetry, 0.05);
 }
+
+TEST(ExteriorStiffness, ValuesGivenOnTheRestOfTheBoundary)
+{
+  // A ring, held outside, with a traction or a displacement inside:
+  // u = A (r - b^2 / r).
+  const double a = 1., b = 2., lambda = rock.lambda(), mu = rock.mu();
+  Boundary ring        = Boundary::circle({ 0., 0. }, b, 96, false);
+  const Boundary inner = Boundary::circle({ 0., 0. }, a, 64, true);
+  std::vector<unsigned int> interface = all(ring);
+  ring.elements.insert(ring.elements.end(), inner.elements.begin(),
+                       inner.elements.end());
+  const VectorXd outward
+      = on_boundary(ring, [](const BoundaryElement &element)
+                    { return element.middle() / element.middle().norm(); });
+  const VectorXd outside = outward.head(Eigen::Index(interface.size()));
+  for (const bool is_traction : { true, false })
+  {
+    std::vector<bool> traction_is_given(ring.n_unknowns(), is_traction);
+    std::fill_n(traction_is_given.begin(), interface.size(), false);
+    const VectorXd traction
+        = exterior_stiffness(ring, rock, Projection::galerkin, interface,
+                             traction_is_given)
+              .traction_by_given
+          * outward;
+    const double A = is_traction ? -0.5 / (lambda + mu + mu * b * b / (a * a))
+                                 : a / (a * a - b * b);
+    const VectorXd exact = 2. * A * (lambda + 2. * mu) * outside;
+    EXPECT_LT((traction - exact).norm(), 5e-3 * exact.norm()) << is_traction;
+  }
+}
