@@ -306,8 +306,9 @@ namespace quoin
         if (load.type == LoadType::gravity)
           for (const auto &given : load.given_components())
           {
-            const auto at = [&](const double t)
-            { return std::abs(given.component.value({ t, t })); };
+            const auto at = [&](const double t) {
+              return std::abs(given.component.value({ t, t }));
+            };
             largest = std::max({ largest, at(0.), at(end) });
             if (at(late_time) == at(0.5 * late_time))
               largest = std::max(largest, at(late_time));

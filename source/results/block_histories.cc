@@ -149,6 +149,9 @@ namespace quoin
       return;
     before.nodes    = state.nodes;
     before.velocity = state.velocity;
+    // Those of ghosts are of the step before.
+    if (model.joints().has_dashpots())
+      model.nodes().exchange().update_ghosts(before.velocity.data());
   }
 
   void BlockHistories::add_force(const Pair &pair, const double share,

@@ -919,7 +919,7 @@ def blocks_that_overlap(quoin, folder):
         stream.write("SetFactory(\"OpenCASCADE\");\n" + text)
     status, printed = run([quoin, prm, "--check", "--set",
                            "Materials/stone/Groups=rock, lid, lining"])
-    expect(status, printed, 0, ["Warning: blocks overlap near"])
+    expect(status, printed, 0, ["Warning: a block lies within another near"])
     return printed
 
 
