@@ -210,8 +210,9 @@ namespace quoin
     largest_throughput           = std::max(
                   { largest_throughput, std::abs(ledger.radiated), std::abs(ledger.given),
                     system.solver->energies().throughput() });
-    // Of an incident wave there may be little for long, most of it what
-    // precedes it or how it begins: its own energy is the measure.
+    // Before an incident wave arrives, the model has little more energy than
+    // the precursor of the wave brings, of which numerical errors are a large
+    // share. So the measure is the energy that the wave brings in the run.
     const double scale
         = std::max(largest_throughput,
                    system.solver->loads().far.elastodynamic->incident_energy());

@@ -45,26 +45,23 @@ namespace quoin
                  : typename Lanes<lanes>::Value{};
     }
 
-    /** The largest square, x, -x, y and -y among vectors on all ranks. */
+    /** The largest square among vectors on all ranks, and the box around them.
+     */
     struct Spread
     {
-      static constexpr double none_yet
-          = -std::numeric_limits<double>::infinity();
-      std::array<double, 5> largest{ { 0., none_yet, none_yet, none_yet,
-                                       none_yet } };
+      double square = 0.;
+      VectorRange range;
 
-      void take(const double x, const double y)
+      void take(const dealii::Tensor<1, 2> &vector)
       {
-        const std::array<double, 5> values{ { x * x + y * y, x, -x, y, -y } };
-        for (unsigned int i = 0; i < values.size(); ++i)
-          largest[i] = std::max(largest[i], values[i]);
+        square = std::max(square, vector.norm_square());
+        for (unsigned int d = 0; d < 2; ++d)
+          range.take(vector[d], d);
       }
       /** A bound of the difference of two of them: what all share is none. */
       double difference() const
       {
-        return std::min(
-            2. * std::sqrt(largest[0]),
-            std::hypot(largest[1] + largest[2], largest[3] + largest[4]));
+        return std::min(2. * std::sqrt(square), range.diagonal());
       }
     };
 
@@ -136,14 +133,11 @@ namespace quoin
     Look look;
     for (unsigned int i = 0; i < edges.boundary_nodes().size(); ++i)
     {
-      const unsigned int node       = edges.boundary_nodes()[i];
-      const dealii::Tensor<1, 2> &v = state.velocity[node];
-      look.speed.take(v[0], v[1]);
-      if (is_first)
-        continue;
-      const auto way
-          = state.nodes[node].position() - contacts.search_positions[i];
-      look.moved.take(way[0], way[1]);
+      const unsigned int node = edges.boundary_nodes()[i];
+      look.speed.take(state.velocity[node]);
+      if (!is_first)
+        look.moved.take(state.nodes[node].position()
+                        - contacts.search_positions[i]);
     }
     look.changed  = find_handovers(edges, joints, parameters.handover, state)
                            || search_is_due
@@ -156,7 +150,7 @@ namespace quoin
       hand_over(edges, joints, exchange.communicator(), state);
     if (look.deepest > 1.)
       refuse_depth(state, look.deepest);
-    const double fastest = std::sqrt(look.speed.largest[0]);
+    const double fastest = std::sqrt(look.speed.square);
     if (fastest * dt > search.skin().largest())
       refuse_speed(state, fastest, dt);
 
@@ -272,7 +266,8 @@ namespace quoin
     const double depth = std::min(0., inherited.plastic_opening) - opening;
     if (depth >= near.weights()[i].depth)
     {
-      // Apart in the step before: too fast to be caught.
+      // The edges were apart in the step before: they move too fast for a
+      // contact to stop them, and the next check ends the run.
       if (pair.was_open && is_inside())
         note_depth(i, depth);
       return false;

@@ -383,18 +383,19 @@ namespace quoin
     }
 
     /**
-     * The same with elements whose lengths differ least from
-     * @p element_length [m], by the sum of squares, and are at most a fifth
-     * longer where they span more than one edge. A stricter limit would leave
-     * short edges to elements of their own, by which the time step goes.
+     * Divides edges as divided() into as many elements as make the sum of the
+     * squares of their differences from @p element_length [m] least. Elements
+     * that span more than one edge are at most a fifth longer than that. A
+     * stricter limit would leave short edges as elements of their own, and the
+     * shortest element bounds the time step.
      */
     std::vector<std::size_t> divided_by_length(const std::vector<double> &place,
                                                const double element_length)
     {
       constexpr double longest = 1.2;
       const std::size_t n      = place.size() - 1;
-      // Of the edges before each place: least sum, and the last element's
-      // begin.
+      // For the edges before each place: the least sum of squares, and the
+      // place where the last element of that division begins.
       std::vector<double> least(n + 1, 0.);
       std::vector<std::size_t> begin(n + 1, 0);
       for (std::size_t end = 1; end <= n; ++end)

@@ -23,8 +23,9 @@ namespace quoin
      */
     Eigen::MatrixXd traction;
     /**
-     * The same by what is given on each unknown of the boundary, displacement
-     * [Pa/m] or traction [-], the interface being held; 0 on the interface.
+     * Tractions on the interface, which is held, by the value that is given on
+     * each unknown of the rest of the boundary, a displacement [Pa/m] or a
+     * traction [-]. Columns of unknowns on the interface are 0.
      */
     Eigen::MatrixXd traction_by_given;
     /**

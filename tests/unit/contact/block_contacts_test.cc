@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../base/message_of.h"
 #include "../joint_laws/rock_walk.h"
 
 #include <quoin/base/exceptions.h>
@@ -769,6 +770,19 @@ TEST(BlockContacts, DeepOverlapStopsAndNamesTheBlocks)
               std::string::npos)
         << error.what();
   }
+}
+
+TEST(BlockContacts, WhatGoesDeepWithinAStepStops)
+{
+  // By 0.3 m, more than a quarter of the cells' height.
+  Scene scene({ { 0., 0., 3., 1., 3, 1 }, { 0.3, 1.01, 2., 1., 2, 1 } });
+  const unsigned int upper = scene.block_at(0.3, 2.01);
+  scene.find_forces();
+  scene.move(upper, 0., -0.31);
+  scene.find_forces(false);
+  EXPECT_NE(message_of<RunError>([&] { scene.find_forces(); })
+                .find("blocks 0 and 1 overlap by 0.3"),
+            std::string::npos);
 }
 
 TEST(BlockContacts, EveryPairOfMaterialsNeedsASet)
