@@ -378,7 +378,8 @@ namespace quoin
     // Before any pair is brought to the present, so that heirs go on from the
     // same past as those they follow, whatever the order of the pairs.
     near.update_copies(contacts);
-    mark_distant(near, contacts);
+    // Beside a contact that has dilated edges touch before they meet.
+    mark_distant(near, !contact_laws.dilates(), contacts);
     list_pairs(contacts.marks, active_pairs, idle_pairs);
     // Only idle pairs that may overlap are looked at more closely.
     unsigned int n_idle = 0;

@@ -16,11 +16,11 @@ namespace quoin
     /** Marks are read as numbers of so many bytes. */
     constexpr unsigned int marks_at_once = sizeof(std::uint64_t);
 
-    /** Motion of nodes against each other up to which pairs stay distant, at
-        first by the skin; then it is chosen such that it is reached after
-        shortest_distance to longest_distance steps. */
-    constexpr double first_distance          = 0.125;
-    constexpr unsigned int shortest_distance = 8, longest_distance = 32;
+    /** Motion of nodes against each other after which it is looked anew which
+        pairs may touch, at first by the skin; then it is chosen such that it is
+        reached after fewest_steps to most_steps. */
+    constexpr double first_motion       = 0.01;
+    constexpr unsigned int fewest_steps = 4, most_steps = 16;
   } // namespace
 
   void make_marks(ContactState &contacts)
@@ -36,45 +36,70 @@ namespace quoin
                                 : pair.was_open ? PairMark::open
                                                 : PairMark::unseen;
     }
-    contacts.distant_from.clear();
+    contacts.marked_from.clear();
   }
 
-  void mark_distant(const NearPairs &near, ContactState &contacts)
+  void mark_distant(const NearPairs &near, const bool by_distance,
+                    ContactState &contacts)
   {
     const MovingEdges &moving = near.moving_edges();
-    const bool is_first       = contacts.distant_from.empty();
-    if (!is_first
-        && moving.motion_since(contacts.distant_from)
-               <= contacts.distant_motion)
-    {
-      ++contacts.distant_steps;
+    const bool is_first       = contacts.marked_from.empty();
+    const double moved
+        = is_first ? 0. : moving.motion_since(contacts.marked_from);
+    ++contacts.marked_steps;
+    if (!is_first && moved <= contacts.marked_for)
       return;
-    }
+    // So far within one step that pairs may have touched which were passed
+    // over.
+    const bool was_late = moved > 2. * contacts.marked_for;
+    double &motion      = contacts.marked_motion;
     if (is_first)
-      contacts.distant_motion = first_distance * contacts.skin;
-    else if (contacts.distant_steps < shortest_distance)
-      contacts.distant_motion *= 2.;
-    else if (contacts.distant_steps > longest_distance)
-      contacts.distant_motion *= 0.5;
-    contacts.distant_steps = 0;
-    contacts.distant_from  = moving.positions();
+    {
+      motion = 0.;
+      contacts.clear_until.assign(contacts.pairs.size(), 0.);
+      if (contacts.marked_for == 0.)
+        contacts.marked_for = first_motion * contacts.skin;
+    }
+    else if (contacts.marked_steps < fewest_steps)
+      contacts.marked_for *= 2.;
+    else if (contacts.marked_steps > most_steps)
+      contacts.marked_for *= 0.5;
+    motion += moved;
+    contacts.marked_steps = 0;
+    contacts.marked_from  = moving.positions();
 
     constexpr unsigned int lanes = native_lanes;
-    const unsigned int n_pairs   = contacts.pairs.size();
-    for (unsigned int i = 0; i < n_pairs; i += lanes)
+    using F                      = LaneFunctions<lanes>;
+    std::vector<unsigned int> due;
+    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
+      if (contacts.clear_until[i] < motion + contacts.marked_for
+          && contacts.marks[i] != PairMark::active)
+        due.push_back(i);
+    for (unsigned int j = 0; j < due.size(); j += lanes)
     {
-      unsigned int pairs[lanes];
-      std::iota(pairs, pairs + lanes, i);
-      const unsigned int n = std::min(lanes, n_pairs - i);
-      const PairPack<lanes> pack(near, pairs, n);
-      const unsigned int clear
-          = LaneFunctions<lanes>::set_lanes(PairFunctions<lanes>::stay_clear(
-              pack.a, pack.b, contacts.distant_motion));
+      const unsigned int n = std::min<unsigned int>(lanes, due.size() - j);
+      const PairPack<lanes> pack(near, &due[j], n);
+      const auto clearance  = PairFunctions<lanes>::clearance(pack.a, pack.b);
+      const auto separation = PairFunctions<lanes>::separation(pack.a, pack.b);
       for (unsigned int l = 0; l < n; ++l)
       {
-        PairMark &mark = contacts.marks[i + l];
-        if (mark == PairMark::unseen || mark == PairMark::distant)
-          mark = clear >> l & 1 ? PairMark::distant : PairMark::unseen;
+        const unsigned int i = due[j + l];
+        PairMark &mark       = contacts.marks[i];
+        const bool was_apart = mark == PairMark::apart;
+        const bool was_open  = was_apart || mark == PairMark::open;
+        if (was_apart && was_late)
+          for (ContactPoint &point : contacts.pairs[i].points)
+            point.opening = std::numeric_limits<double>::infinity();
+        // Pairs that are apart wake at half of their distance, so that the step
+        // in which they touch has seen the one before.
+        double clear = F::at(clearance, l);
+        if (was_open)
+          clear = by_distance ? 0.5 * F::at(separation, l) : 0.;
+        contacts.clear_until[i] = motion + clear;
+        if (clear > contacts.marked_for)
+          mark = was_open ? PairMark::apart : PairMark::distant;
+        else
+          mark = was_open ? PairMark::open : PairMark::unseen;
       }
     }
   }
@@ -83,12 +108,12 @@ namespace quoin
                   std::vector<unsigned int> &active,
                   std::vector<unsigned int> &idle)
   {
-    // The mark of an active pair has the second bit and not the first, that of
-    // a distant one has both.
+    // The mark of an active pair has the second bit and not the first, those of
+    // pairs that are passed over have both.
     constexpr std::uint64_t first_bits = 0x0101010101010101;
-    static_assert(unsigned(PairMark::open) == 1
-                  && unsigned(PairMark::active) == 2
-                  && unsigned(PairMark::distant) == 3);
+    static_assert(
+        unsigned(PairMark::open) == 1 && unsigned(PairMark::active) == 2
+        && unsigned(PairMark::distant) == 3 && unsigned(PairMark::apart) == 7);
     active.resize(marks.size());
     idle.resize(marks.size());
     unsigned int *next_active = active.data(), *next_idle = idle.data();

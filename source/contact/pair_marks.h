@@ -15,12 +15,15 @@ namespace quoin
   /** Marks all pairs by their flags, none of them as distant. */
   void make_marks(ContactState &contacts);
 
-  /** Finds out anew which pairs are distant, if nodes have moved farther than
-      they may since that was found out last. theory.md, "General contacts". */
-  void mark_distant(const NearPairs &near, ContactState &contacts);
+  /** Finds out anew which pairs will not touch for the time being, if nodes
+      have moved farther than that was found out for: those that do not overlap
+      and, with @p by_distance, those that are far enough apart. theory.md,
+      "General contacts". */
+  void mark_distant(const NearPairs &near, bool by_distance,
+                    ContactState &contacts);
 
   /** Lists the pairs that are active, and those that are neither active nor
-      distant, ascending. */
+      passed over, ascending. */
   void list_pairs(const AlignedArray<PairMark> &marks,
                   std::vector<unsigned int> &active,
                   std::vector<unsigned int> &idle);

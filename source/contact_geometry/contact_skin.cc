@@ -26,7 +26,7 @@ namespace quoin
     constexpr double growth = 2.;
     /** What a search costs for each edge, by what a step costs for each pair.
      */
-    constexpr double cost_of_search = 60.;
+    constexpr double cost_of_search = 150.;
     /** Steps after which a first search is followed by another, which knows of
         the motions, and, by the number of steps that a skin is made for, those
         after which another one may be cheaper. */

@@ -63,8 +63,10 @@ namespace quoin
                                       const dealii::Tensor<1, dim> *velocity,
                                       dealii::Tensor<1, dim> *force) const
   {
+    // The frame of a face that has gone may be anything, also none at all where
+    // its edges lie against each other.
     const JointDamping &damping = all_dampings[faces[i].set];
-    if (!damping.acts())
+    if (!damping.acts() || gone[i])
       return;
     std::visit(
         [&](const auto &law)

@@ -71,7 +71,8 @@ namespace quoin
     unseen  = 0, /**< not active, and not seen apart */
     open    = 1, /**< not active, and seen apart */
     active  = 2,
-    distant = 3 /**< not active, and will not overlap for the time being */
+    distant = 3, /**< unseen, and will not touch for the time being */
+    apart   = 7  /**< open, and will not touch for the time being */
   };
 
   /** Contacts that come and go; empty if displacements are small. */
@@ -83,11 +84,15 @@ namespace quoin
     /** Copies of each pair's flags active and was_open, which a step reads of
         all pairs. They are not archived; empty: to be made again. */
     AlignedArray<PairMark> marks;
-    /** Distant pairs do not overlap until nodes have moved by more than this
-        against each other [m], from these positions of MovingEdges. */
-    double distant_motion = 0.;
-    AlignedArray<dealii::Tensor<1, 2>> distant_from;
-    unsigned int distant_steps = 0; /**< since then */
+    /** How far nodes have moved against each other, at most, when it was last
+        looked which pairs will not touch for the time being [m]; it is looked
+        again when they have moved by more than marked_for since, from the
+        positions marked_from of MovingEdges. Not archived. */
+    double marked_motion = 0., marked_for = 0.;
+    AlignedArray<dealii::Tensor<1, 2>> marked_from;
+    unsigned int marked_steps = 0; /**< since then */
+    /** Such a motion up to which each pair does not touch [m]. */
+    AlignedArray<double> clear_until;
 
     /** Flag of each interface of joints. */
     AlignedArray<std::uint8_t> handed_over;

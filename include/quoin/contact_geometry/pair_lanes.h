@@ -134,37 +134,62 @@ namespace quoin
       return (c > least_cosine) & (u > -margin) & (u - lb < la + margin);
     }
 
-    /**
-     * Whether edges do not overlap, and will not, by may_overlap(), as long as
-     * none of their nodes moves by more than @p motion [m] against another.
-     */
-    static QUOIN_INLINE Bits stay_clear(const Edge &a, const Edge &b,
-                                        const double motion)
+    /** Unit vector of the mean direction @p c, the cosine() of both, shorter
+        where they hardly face each other. */
+    static QUOIN_INLINE void mean_direction(const Edge &a, const Edge &b,
+                                            const Value &c, Value (&t)[2])
     {
-      // Both together turn by no more than this: one of length l by asin(d/l),
-      // which is at most pi/2 d/l. Their mean direction turns by half of it.
-      const Value turn
-          = M_PI_2 * motion * (a.inverse_length + b.inverse_length);
-      const Value c = cosine(a, b);
       const Value scale
           = 1. / F::square_root(F::maximum(fill(1.), 2. + 2. * c));
-      const Value tx     = scale * (a.tangent[0] - b.tangent[0]);
-      const Value ty     = scale * (a.tangent[1] - b.tangent[1]);
-      const Value margin = motion + 1e-8 * (a.length + b.length);
+      t[0] = scale * (a.tangent[0] - b.tangent[0]);
+      t[1] = scale * (a.tangent[1] - b.tangent[1]);
+    }
+
+    /**
+     * How far all nodes may move against each other [m] while the edges do not
+     * overlap by may_overlap(); not more than 0 if they may now.
+     */
+    static QUOIN_INLINE Value clearance(const Edge &a, const Edge &b)
+    {
+      // Both together turn by no more than this by the motion: one of length l
+      // by asin(d/l), which is at most pi/2 d/l. Their mean direction turns by
+      // half of it.
+      const Value turn = M_PI_2 * (a.inverse_length + b.inverse_length);
+      const Value c    = cosine(a, b);
+      Value t[2];
+      mean_direction(a, b, c, t);
       // How far a node is from the one that it passes as the overlap begins.
-      const auto is_clear = [&](const Value &x, const Value &y)
+      const auto clear = [&](const Value &x, const Value &y)
       {
         const Value distance = F::square_root(x * x + y * y);
-        return x * tx + y * ty > margin + 0.5 * turn * distance;
+        return (x * t[0] + y * t[1] - 1e-8 * (a.length + b.length))
+               / (1. + 0.5 * turn * distance);
       };
       const Value x = b.x - a.x, y = b.y - a.y;
-      const Bits is_before = is_clear(-x, -y);
-      const Bits is_behind
-          = is_clear(x + b.length * b.tangent[0] - a.length * a.tangent[0],
-                     y + b.length * b.tangent[1] - a.length * a.tangent[1]);
-      const Bits has_direction = (turn < 1.) & (c > -0.5);
-      const Bits is_averted = (turn < 1.) & (c + turn < 0.999 * least_cosine);
-      return is_averted | (has_direction & (is_before | is_behind));
+      const Value before = clear(-x, -y);
+      const Value behind
+          = clear(x + b.length * b.tangent[0] - a.length * a.tangent[0],
+                  y + b.length * b.tangent[1] - a.length * a.tangent[1]);
+      const Value beside  = turn * F::maximum(before, behind);
+      const Value averted = 0.999 * least_cosine - c;
+      return F::minimum(fill(1.),
+                        F::maximum(averted, c > -0.5 ? beside : averted))
+             / turn;
+    }
+
+    /** A bound from below of the distance of edges that face each other [m], by
+        lines along their mean direction; less than 0 if it finds none. */
+    static QUOIN_INLINE Value separation(const Edge &a, const Edge &b)
+    {
+      Value t[2];
+      mean_direction(a, b, cosine(a, b), t);
+      const auto height
+          = [&](const Value &x, const Value &y) { return x * t[1] - y * t[0]; };
+      const Value first  = height(b.x - a.x, b.y - a.y);
+      const Value rise_a = a.length * height(a.tangent[0], a.tangent[1]);
+      const Value rise_b = b.length * height(b.tangent[0], b.tangent[1]);
+      return F::minimum(first, first + rise_b) - F::maximum(Value{}, rise_a)
+             - 1e-8 * (a.length + b.length);
     }
 
     /** Unit normal of a contact, from lower to upper: of @p a where @p lean is

@@ -258,6 +258,31 @@ TEST(Dashpots, DoNotPull)
   }
 }
 
+TEST(Dashpots, RestWhereAJointHasGone)
+{
+  // Its edges lie against each other, in opposite directions: the joint has no
+  // direction any more.
+  Pressed blocks(false, 2, 0.3);
+  for (std::uint8_t &gone : blocks.state.get<JointHistory>().handed_over)
+    gone = 1;
+  for (unsigned int v = 0; v < blocks.nodes->n_local(); ++v)
+    if (blocks.is_upper(v))
+    {
+      const auto p = blocks.nodes->point(v);
+      blocks.state.nodes[v].u
+          = dealii::Point<2>(1. - 2. * p[0], 2. - 2. * p[1]);
+      blocks.state.velocity[v] = dealii::Point<2>(0.1, -1.);
+    }
+  blocks.force.assign(blocks.nodes->n_local(), dealii::Tensor<1, 2>());
+  blocks.viscous = blocks.force;
+  StepContext step{};
+  step.stiffness_damping = 1e-5;
+  blocks.joints.add_forces(step, blocks.state,
+                           { blocks.force.data(), blocks.viscous.data() });
+  for (unsigned int v = 0; v < blocks.nodes->n_local(); ++v)
+    EXPECT_EQ(blocks.force[v].norm() + blocks.viscous[v].norm(), 0.);
+}
+
 TEST(Dashpots, FrictionBoundsTheWholeShearByTheWholePressure)
 {
   for (const bool may_meet : { false, true })
