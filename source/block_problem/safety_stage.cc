@@ -6,6 +6,7 @@
 #include <quoin/block_problem/block_stage.h>
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/interruption.h>
+#include <quoin/reinforcement/bar_results.h>
 #include <quoin/results/result_origin.h>
 #include <quoin/operators/stored_energy.h>
 
@@ -19,8 +20,10 @@ namespace quoin
     /** Automatic failure displacement, by the mean displacement with which the
         loads have deformed the model, or by its diagonal. */
     constexpr double failure_by_loading = 10., failure_by_diagonal = 1e-3;
-    /** At least, by the slip that mobilises the peak strength of joints. */
-    constexpr double failure_by_slip = 2.;
+    /** At least, by the slip that mobilises the peak strength of joints, and by
+        the motion along bolts that mobilises these, which may be at 70 degrees
+        to the joint that slips; implicit trials may go beyond the limit. */
+    constexpr double failure_by_slip = 2., failure_by_bolts = 6.;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
     /** Share of the failure displacement at which a trial of the implicit
@@ -377,14 +380,20 @@ namespace quoin
         force += forces[i].norm();
       energy = dealii::Utilities::MPI::sum(energy, context.run.communicator);
       force  = dealii::Utilities::MPI::sum(force, context.run.communicator);
-      double slip = 0.;
+      double least = 0.;
       for (const JointSetParameters &set : strong.joints)
-        slip = std::max(slip, slip_of_peak(set.law));
-      return std::max(failure_by_slip * slip,
-                      force > 0. && energy > 0.
-                          ? failure_by_loading * 2. * energy / force
-                          : failure_by_diagonal
-                                * system.nodes->table().diagonal());
+        least = std::max(least, failure_by_slip * slip_of_peak(set.law));
+      if constexpr (dim == 2)
+        if (!model.reinforcement().empty())
+          least = std::max(
+              least,
+              failure_by_bolts
+                  / (system.implicit_solver ? JumpWatch::far_beyond : 1.)
+                  * mobilising_motion(model.reinforcement(), base, force));
+      return std::max(least, force > 0. && energy > 0.
+                                 ? failure_by_loading * 2. * energy / force
+                                 : failure_by_diagonal
+                                       * system.nodes->table().diagonal());
     }
 
     template <int dim>

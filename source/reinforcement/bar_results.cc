@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace quoin
 {
@@ -124,6 +125,54 @@ namespace quoin
       }
     }
     return fields;
+  }
+
+  double mobilising_motion(const Reinforcement &reinforcement,
+                           const State<2> &state, const double most)
+  {
+    const auto &states = state.get<ReinforcementState>().bars;
+    double largest     = 0.;
+    for (unsigned int b = 0; b < states.size(); ++b)
+    {
+      if (!states[b].installed)
+        continue;
+      const PlacedBar &bar  = reinforcement.all()[b];
+      const BarLaw &law     = bar.law;
+      const BarChain &chain = bar.chain;
+      const std::size_t n   = chain.n_elements();
+      BarState unloaded;
+      unloaded.resize(chain, 0);
+      std::vector<double> tangent;
+      update(law, chain, std::vector<double>(n, 0.), unloaded, &tangent);
+      // What holds the bar on either side of the joint, without the pressure
+      // that friction of the bond follows.
+      const bool bond_is_limited
+          = law.bond_friction == 0. && law.bond_strength != BarLaw::unlimited;
+      double near = law.plate_stiffness > 0. ? law.plate_strength : 0.;
+      double far  = law.anchor_stiffness > 0. ? law.anchor_strength : 0.;
+      for (const double length : chain.bond)
+        far += length * law.bond_strength;
+      for (std::size_t e = 0; e < n; ++e)
+      {
+        near += chain.bond[e] * law.bond_strength;
+        far -= chain.bond[e] * law.bond_strength;
+        const double stiffness = tangent[e * n + e];
+        if (bar.hosts[e].block == bar.hosts[e + 1].block || stiffness <= 0.)
+          continue;
+        double strength = std::min(law.yield, most);
+        if (bond_is_limited)
+          strength = std::min({ strength, near, far });
+        largest = std::max(largest, strength / stiffness);
+      }
+      if (bar.dowels.empty())
+        continue;
+      for (const auto &[stiffness, strength] :
+           { std::pair(law.dowel_stiffness, law.dowel_strength),
+             std::pair(law.dowel_axial_stiffness, law.dowel_axial_strength) })
+        if (stiffness > 0.)
+          largest = std::max(largest, std::min(strength, most) / stiffness);
+    }
+    return largest;
   }
 
   std::string cable_text(const Reinforcement &reinforcement)

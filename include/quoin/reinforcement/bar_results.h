@@ -53,6 +53,15 @@ namespace quoin
   CableFields cable_fields(const Reinforcement &reinforcement,
                            const State<2> &state);
 
+  /**
+   * The motion of a joint along a bar across it, or across a dowel, in which
+   * the bar comes to bear as much as it can, or @p most [N]: the largest of all
+   * bars that are installed and the joints that they cross [m]. From the
+   * stiffness of a bar that bears nothing yet.
+   */
+  double mobilising_motion(const Reinforcement &reinforcement,
+                           const State<2> &state, double most);
+
   /** Lines about the bars for --check. */
   std::string cable_text(const Reinforcement &reinforcement);
 } // namespace quoin

@@ -174,8 +174,10 @@ namespace quoin
       return moved_on;
     }
 
-  private:
+    /** Limits beyond which a trial fails without an equilibrium on the way. */
     static constexpr double far_beyond = 3.;
+
+  private:
     const double limit;
     double before = 0.; /**< displacement at the last equilibrium [m] */
     bool moved_on = false;
