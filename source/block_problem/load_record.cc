@@ -28,6 +28,22 @@ namespace quoin
     constexpr unsigned int n_windows = 10;
     /** Share of the work of a load pattern that damping may take. */
     constexpr double most_damped = 0.05;
+    /** Most places on the path of a load pattern that are kept, an even number,
+        windows of the path whose means are compared, and the least motion in
+        one, by that of all. */
+    constexpr unsigned int most_places = 1024, n_path_windows = 20;
+    constexpr double least_way = 0.1;
+    /** Excess of the largest factor over the largest mean that is warned of. */
+    constexpr double most_excess = 0.05;
+
+    /** Keeps the first of each two of @p rows of @p n numbers. */
+    void keep_every_second(const unsigned int n, std::vector<double> &rows)
+    {
+      const std::size_t left = (rows.size() / n + 1) / 2;
+      for (std::size_t i = 0; i < left; ++i)
+        std::copy_n(&rows[2 * i * n], n, &rows[i * n]);
+      rows.resize(left * n);
+    }
   } // namespace
 
   void LoadRecord::add_factor(const double factor, const double displacement,
@@ -49,6 +65,41 @@ namespace quoin
     pattern.factor    = factor;
     pattern.unit_work = unit_work;
     pattern.damped    = damped;
+    if ((pattern.n_rows - 1) % n_per_place != 0)
+      return;
+    path.push_back(unit_work);
+    path.push_back(pattern.work);
+    if (path.size() < 2 * most_places)
+      return;
+    keep_every_second(2, path);
+    n_per_place *= 2;
+  }
+
+  std::optional<double> LoadRecord::largest_mean_factor() const
+  {
+    const std::size_t n     = path.size() / 2;
+    const std::size_t width = n / n_path_windows;
+    if (width < 2)
+      return {};
+    const double sign  = peak.factor < 0. ? -1. : 1.;
+    const double least = least_way * double(width) / double(n)
+                         * std::abs(path[2 * n - 2] - path[0]);
+    std::optional<double> largest;
+    for (std::size_t i = 0; i + width < n; ++i)
+    {
+      const double way  = path[2 * (i + width)] - path[2 * i];
+      const double work = path[2 * (i + width) + 1] - path[2 * i + 1];
+      if (std::abs(way) > least
+          && (!largest || sign * work / way > sign * *largest))
+        largest = work / way;
+    }
+    return largest;
+  }
+
+  bool LoadRecord::has_spike() const
+  {
+    const auto mean = largest_mean_factor();
+    return mean && std::abs(peak.factor) > (1. + most_excess) * std::abs(*mean);
   }
 
   void LoadRecord::add_forces(const ForceBalance &forces, const double time,
@@ -167,6 +218,16 @@ namespace quoin
           "about as much than what the model bears at rest. Push more slowly, "
           "take 'Damping = Rayleigh' with a stiffness coefficient, or 'Solver "
           "= implicit', and compare.");
+    if (has_spike())
+      text += text_of(
+          text.empty() ? "" : " ", "the largest load factor, ", peak.factor,
+          " at time ", peak.time, " s, is ",
+          100. * (peak.factor / *largest_mean_factor() - 1.),
+          " % above the largest mean over a twentieth of the stage, ",
+          *largest_mean_factor(),
+          ": unless strength is lost as quickly, the model bore it by inertia "
+          "alone, as it vibrates or jumps. The mean is nearer to what it bears "
+          "at rest; push more slowly and compare.");
     return text;
   }
 
@@ -177,6 +238,9 @@ namespace quoin
           = { { "factor", peak.factor },
               { "controlled displacement [m]", peak.displacement },
               { "time [s]", peak.time } };
+    if (const auto mean = largest_mean_factor())
+      stage["largest load factor"]["mean over a twentieth of the stage"]
+          = *mean;
     if (pattern.n_rows > 1)
       stage["damping by work of the load pattern"] = damped_share();
     for (unsigned int d = 0; d < 3; ++d)

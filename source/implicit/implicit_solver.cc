@@ -23,8 +23,12 @@ namespace quoin
 {
   namespace
   {
-    /** Most steps of a jump. */
-    constexpr unsigned int most_drag_steps = 500;
+    /** Steps in which the drag of a jump whose loads rest has to fall to a
+       share of it, or there is no equilibrium ahead, and most steps of a jump.
+     */
+    constexpr unsigned int drag_patience   = 500;
+    constexpr double falling_drag          = 0.8;
+    constexpr unsigned int most_drag_steps = 10000;
     /** Steps of a jump between trials without drag. */
     constexpr unsigned int trial_interval = 4;
     /** Displacement in a jump, by the model's size, that is a collapse. */
@@ -638,6 +642,7 @@ namespace quoin
       last_equilibrium = state;
     Configuration<dim> configuration;
     double refused = std::numeric_limits<double>::infinity();
+    double drag    = refused; // by the applied forces
     for (attempt = 0;; ++attempt)
     {
       const StepTarget target = own_steps.target(state);
@@ -671,6 +676,10 @@ namespace quoin
         const double went = acting.pattern && !jumps
                                 ? largest_move(state.nodes, configuration.nodes)
                                 : 0.;
+        const double last = drag;
+        drag              = balance.dragged / balance.applied;
+        if (own_steps.slows_loads(target, drag, last, state))
+          continue;
         // Soft joints slip far once they lose strength, whatever the drag.
         if (std::max(path, went) <= most
             || (stage.safety && jumps && path > at_once_share * refused))
@@ -705,14 +714,15 @@ namespace quoin
     now.drag_time += now.drag_step;
     now.drag_path += std::abs(balance.path);
     // A search for the factor of safety judges by itself how far it goes.
-    if (now.n_drag >= most_drag_steps
+    if (now.n_drag >= most_drag_steps || !comes_to_rest(before, now)
         || (!stage.safety
             && largest_move(last_equilibrium.nodes, state.nodes)
                    > collapse_share * model.nodes().table().diagonal()))
       give_up(state);
     own_steps.adapt_jump(iteration, balance.path, now);
     // Trials without drag cost as much as steps: at first, then at intervals.
-    if (balance.dragged > jump_ends * balance.applied
+    if (state.load_time < now.jump_time
+        || balance.dragged > jump_ends * balance.applied
         || (!own_steps.is_short(now) && now.n_drag % trial_interval != 0))
       return;
     // Near an equilibrium: test whether it is one without drag.
@@ -734,6 +744,24 @@ namespace quoin
     done.jumps.push_back(
         { now.jump_time, now.n_drag,
           dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
+  }
+
+  template <int dim>
+  bool ImplicitSolver<dim>::comes_to_rest(const State<dim> &before,
+                                          ImplicitState &now) const
+  {
+    const double drag = balance.dragged / balance.applied;
+    if (now.n_drag == 1 || before.load_time < now.jump_time)
+    {
+      now.watched_from = now.n_drag;
+      now.watched_drag = drag;
+    }
+    if (now.n_drag < now.watched_from + drag_patience)
+      return true;
+    const bool falls = drag <= falling_drag * now.watched_drag;
+    now.watched_from = now.n_drag;
+    now.watched_drag = drag;
+    return falls;
   }
 
   template <int dim>
@@ -863,7 +891,8 @@ namespace quoin
                "iterations', or look at the strengths "
             << (balance.failed_beam.empty() ? "of those joints"
                                             : "and loads of that beam")
-            << ". The last equilibrium is kept.";
+            << ". Compare with 'Solver = explicit' before you take it for the "
+               "limit load. The last equilibrium is kept.";
     throw ModelFailure(message.str());
   }
 

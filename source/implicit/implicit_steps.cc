@@ -27,6 +27,13 @@ namespace quoin
         where a search for the factor of safety asks whether the model goes on
         moving. */
     constexpr double most_flow = 1., long_flow = 0.02, safety_flow = 0.2;
+    /** Ratio of drag to applied force up to which the loads of a jump may go
+       on, and share of it that they are slowed down to: a drag beyond would
+       hold the model while prescribed motions go on, and let joints yield
+       elsewhere than without it. */
+    constexpr double most_drag = 0.02, wanted_drag = 0.5;
+    /** Growth of their rate where drag is a small part of that. */
+    constexpr double rate_growth = 4.;
     /** Load step after a jump, by the last one. */
     constexpr double jump_share = 0.3;
     /** Number of steps of a short jump. */
@@ -62,7 +69,11 @@ namespace quoin
   {
     const ImplicitState &now = state.template get<ImplicitState>();
     if (now.jumps)
-      return { now.jump_time, now.jump_released, 0. };
+      return { now.jump_rate > 0.
+                   ? std::min(now.jump_time,
+                              state.load_time + now.jump_rate * now.drag_step)
+                   : now.jump_time,
+               now.jump_released, 0. };
     if (now.released < 1.)
     {
       const double next = now.released + now.step;
@@ -96,8 +107,11 @@ namespace quoin
     now.n_drag         = 0;
     now.drag_time      = 0.;
     now.drag_path      = 0.;
+    now.watched_from   = 0;
+    now.watched_drag   = 0.;
     now.jump_loss      = 0.;
     now.drag_step      = first_drag_step;
+    now.jump_rate      = 0.;
     now.jump_time      = state.load_time;
     now.jump_released  = 1.;
     const double share = std::max({ now.step, jump_share * now.last_step,
@@ -117,6 +131,25 @@ namespace quoin
     if (n_iterations <= parameters.wanted_iterations
         && std::abs(path) < most_jump_path(now) / drag_growth)
       now.drag_step *= drag_growth;
+  }
+
+  template <int dim>
+  bool ImplicitSteps::slows_loads(const StepTarget &target, const double ratio,
+                                  const double last, State<dim> &state) const
+  {
+    ImplicitState &now   = state.template get<ImplicitState>();
+    const double advance = target.load_time - state.load_time;
+    if (!now.jumps || searches_factor || rests || advance <= 0.)
+      return false;
+    const double rate = advance / now.drag_step;
+    if (ratio > most_drag && ratio < 0.9 * last)
+    {
+      now.jump_rate = wanted_drag * most_drag / ratio * rate;
+      return true;
+    }
+    if (now.jump_rate > 0. && ratio < wanted_drag / rate_growth * most_drag)
+      now.jump_rate *= rate_growth;
+    return false;
   }
 
   bool ImplicitSteps::is_short(const ImplicitState &jump) const
@@ -156,6 +189,10 @@ namespace quoin
     ImplicitState &now = state.template get<ImplicitState>();
     if (now.jumps)
     {
+      // Loads that come slowly do not move the model by more against the drag.
+      if (now.jump_rate == 0. && now.jump_time > state.load_time)
+        now.jump_rate
+            = drag_cut * (now.jump_time - state.load_time) / now.drag_step;
       now.drag_step *= drag_cut;
       return now.drag_step > least_drag_step;
     }
@@ -274,6 +311,10 @@ namespace quoin
                                        State<2> &) const;
   template void ImplicitSteps::adapt(const State<2> &, unsigned int, double,
                                      double, State<2> &) const;
+  template bool ImplicitSteps::slows_loads(const StepTarget &, double, double,
+                                           State<2> &) const;
+  template bool ImplicitSteps::slows_loads(const StepTarget &, double, double,
+                                           State<3> &) const;
   template StepTarget ImplicitSteps::target(const State<3> &) const;
   template bool ImplicitSteps::begin_jump(State<3> &) const;
   template bool ImplicitSteps::cut(bool, State<3> &) const;

@@ -162,7 +162,8 @@ namespace quoin
         double strength = std::min(law.yield, most);
         if (bond_is_limited)
           strength = std::min({ strength, near, far });
-        largest = std::max(largest, strength / stiffness);
+        largest
+            = std::max(largest, (strength - states[b].force[e]) / stiffness);
       }
       if (bar.dowels.empty())
         continue;

@@ -185,15 +185,26 @@ def reset_results(case, folder, output, histories):
 
 def collapse(case, folder, output, histories):
     """The largest factor of a load pattern in summary.json by that of the case,
-    if it has one, and the residual of the energy balance. Supports must take
-    the loads, and the factor be between two bounds, if there are some."""
+    the largest mean likewise, if it has them, and the residual of the energy balance. Supports must take
+    the loads, and the factor be between two bounds and the work of loads below
+    one, if there are some."""
     with open(os.path.join(output, "summary.json")) as stream:
         stage = json.load(stream)["stages"]["push"]
     errors = energy_residual(case, folder, output, histories)
+    if "most work" in case:
+        energies, _ = read_table(os.path.join(output, "energies.csv"))
+        work = energies["external"][-1]
+        if not 0 < work < case["most work"]:
+            raise Failure("the loads did a work of %g J, not up to %g J"
+                          % (work, case["most work"]))
     if "largest factor" in case:
         wanted = case["largest factor"]
         errors["largest factor"] \
             = abs(stage["largest load factor"]["factor"] - wanted) / wanted
+    if "largest mean factor" in case:
+        mean = stage["largest load factor"]["mean over a twentieth of the stage"]
+        errors["largest mean factor"] \
+            = abs(mean / case["largest mean factor"] - 1)
     low, high = case.get("factor between", (0, float("inf")))
     factor = stage["largest load factor"]["factor"]
     if not low < factor < high:

@@ -62,7 +62,8 @@ namespace quoin
      * raise the force of supports for a moment. A model that vibrates about a
      * balance passes, as its supports take more than is applied, too; so do
      * loads that balance each other. Or that damping took more than 5 % of the
-     * work of a load pattern. Empty: nothing.
+     * work of a load pattern, or that its largest factor is more than 5 % above
+     * the largest mean over a twentieth of the rows. Empty: nothing.
      */
     std::string warning() const;
 
@@ -78,6 +79,7 @@ namespace quoin
             .applied &axis.time &axis.size;
       archive &pattern.factor &pattern.unit_work &pattern.damped &pattern
           .work &pattern.loss &pattern.n_rows;
+      archive &path &n_per_place;
       archive &means &sum &n_summed &n_per_mean;
     }
 
@@ -130,8 +132,19 @@ namespace quoin
       return pattern.work > 0. ? pattern.loss / pattern.work : 0.;
     }
 
+    /** The largest mean factor of a load pattern over a twentieth of the rows,
+       in the direction of the largest one: the work by that of the loads with
+       the factor 1. Empty: there are too few rows. */
+    std::optional<double> largest_mean_factor() const;
+    /** Whether the largest factor is far above that. */
+    bool has_spike() const;
+
     Peak peak;
     PatternWork pattern;
+    /** Of equally distant rows, since the first one: the work of a load pattern
+        with the factor 1 and its work [J]. */
+    std::vector<double> path;
+    unsigned int n_per_place = 1; /**< rows from one to the next */
     std::array<Axis, 3> axes;
     /** Means of equally many rows, one after the other, and the sum of the rows
         behind them. */

@@ -195,6 +195,8 @@ namespace quoin
                  Configuration<dim> &configuration);
     bool break_joints();
     void go_on_jumping(const State<dim> &before, State<dim> &state);
+    /** Whether the drag of a jump falls, as far as it has been watched. */
+    bool comes_to_rest(const State<dim> &before, ImplicitState &now) const;
     void commit(const Configuration<dim> &configuration, State<dim> &state);
     /** Largest component of the displacements @p from one configuration
         @p to another [m]; collective. */

@@ -43,10 +43,16 @@ namespace quoin
     bool jumps           = false;
     double jump_time     = 0.; /**< load time of the jump [s] */
     double jump_released = 1.; /**< share of the held forces that it releases */
-    double drag_step     = 0.; /**< next step of pseudo-time [-] */
-    double drag_time     = 0.; /**< pseudo-time of the jump so far [-] */
-    double drag_path     = 0.; /**< path's length in the jump so far [m] */
-    unsigned int n_drag  = 0;  /**< steps of the jump so far */
+    double jump_rate = 0.; /**< of the load time, by the pseudo-time, at most;
+                              0: the loads of the jump are there at once [s] */
+    double drag_step    = 0.; /**< next step of pseudo-time [-] */
+    double drag_time    = 0.; /**< pseudo-time of the jump so far [-] */
+    double drag_path    = 0.; /**< path's length in the jump so far [m] */
+    unsigned int n_drag = 0;  /**< steps of the jump so far */
+    /** Step of the jump when the drag was last compared with what it was, and
+        this, by the applied forces. */
+    unsigned int watched_from = 0;
+    double watched_drag       = 0.;
     double jump_loss = 0.; /**< dissipated by drag since the jump began [J] */
     bool after_jump  = false; /**< whether the last equilibrium ended one */
     /** Archived State of the equilibrium before a jump, in checkpoints within
@@ -65,8 +71,9 @@ namespace quoin
       visitor.own(moved_blocks, 3, RigidBlockStates::slice_name);
       visitor.same(dim, moved_for, released, step, last_step, follows_path,
                    path_step, path_length, farthest, ahead, jumps, jump_time,
-                   jump_released, drag_step, drag_time, drag_path, n_drag,
-                   jump_loss, after_jump, before_jump);
+                   jump_released, jump_rate, drag_step, drag_time, drag_path,
+                   n_drag, watched_from, watched_drag, jump_loss, after_jump,
+                   before_jump);
     }
 
     template <typename Archive>

@@ -79,6 +79,12 @@ namespace quoin
     /** As adapt(), within a jump. */
     void adapt_jump(unsigned int n_iterations, double path,
                     ImplicitState &now) const;
+    /** Whether the loads of a jump went so fast in the step from @p state to
+        @p target that drag, @p ratio by the applied forces, held the model;
+        they go slower then. @p last: that of the same step at another rate. */
+    template <int dim>
+    bool slows_loads(const StepTarget &target, double ratio, double last,
+                     State<dim> &state) const;
     /** Chooses the step after a jump from the equilibrium @p before. */
     void end_jump(const ImplicitState &before, ImplicitState &now) const;
     /** Whether the next equilibrium is the next one on the same path. */

@@ -55,9 +55,9 @@ namespace quoin
 
   /**
    * The motion of a joint along a bar across it, or across a dowel, in which
-   * the bar comes to bear as much as it can, or @p most [N]: the largest of all
-   * bars that are installed and the joints that they cross [m]. From the
-   * stiffness of a bar that bears nothing yet.
+   * the bar comes to bear as much as it can, or @p most [N], from the force in
+   * it now on: the largest of all bars that are installed and the joints that
+   * they cross [m]. By the stiffness of a bar that bears nothing yet.
    */
   double mobilising_motion(const Reinforcement &reinforcement,
                            const State<2> &state, double most);

@@ -22,9 +22,9 @@ COHESION = 4e3  # over 1 m^2
 ROUGHNESS, WALL = 5., 50e6
 
 
-def factor(force, cohesion=0.):
+def factor(force, cohesion=0., friction=FRICTION):
     return (((WEIGHT * np.cos(SLOPE) + force * 0.7 / LENGTH)
-             * np.tan(FRICTION) + cohesion)
+             * np.tan(friction) + cohesion)
             / (WEIGHT * np.sin(SLOPE) - force * 0.3 / LENGTH))
 
 
@@ -35,7 +35,8 @@ def rough(residual):
 
 
 with open(os.path.join(HERE, "factors.csv"), "w") as stream:
-    stream.write("bolted [-],without [-],cohesive [-],rough [-],smooth [-]\n"
-                 "%.9g,%.9g,%.9g,%.9g,%.9g\n"
+    stream.write("bolted [-],without [-],cohesive [-],rough [-],smooth [-],"
+                 "passive [-]\n%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n"
                  % (factor(YIELD), factor(0), factor(YIELD, COHESION),
-                    rough(37.), rough(30.)))
+                    rough(37.), rough(30.),
+                    factor(YIELD, friction=np.radians(30.))))

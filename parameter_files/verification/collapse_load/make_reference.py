@@ -10,6 +10,7 @@ along themselves is the integral of arm_P. A body that slides is in balance
 with the strength of its bed.
 """
 import os
+import sys
 
 import numpy as np
 
@@ -85,3 +86,33 @@ fall = (peak - residual) / critical
 tau = np.maximum((peak - fall * w) / (1 - fall / ks), residual)
 save("softening.csv", times, w, np.minimum(ks * w, tau) / pressure)
 print("peak of the softening bed: %.6g" % (peak / pressure))
+
+
+def bond():
+    """Largest factor of the wall in bond, of half bricks of 0.2 m."""
+    sys.path.insert(0, os.path.dirname(HERE))
+    from limit_analysis import Blocks, LimitAnalysis
+
+    half, blocks, below = 0.2, Blocks(), [(-1, 0, 4)]
+    for course in range(4):
+        y = course * half
+        ends = [0, 2, 4] if course % 2 == 0 else [0, 1, 3, 4]
+        row = []
+        for a, b in zip(ends, ends[1:]):
+            corners = [(a, y), (b, y), (b, y + half), (a, y + half)]
+            row.append((blocks.add_block(
+                [(half * x, height) for x, height in corners]), a, b))
+        for low, a, b in below:
+            for high, c, d in row:
+                first, last = max(a, c), min(b, d)
+                if last > first:
+                    blocks.add_joint(low, high, [(half * first, y),
+                                                 (half * last, y)], (0, 1))
+        for (left, _, x), (right, _, _) in zip(row, row[1:]):
+            blocks.add_joint(left, right, [(half * x, y),
+                                           (half * x, y + half)], (1, 0))
+        below = row
+    return LimitAnalysis(blocks, np.tan(np.radians(40))).associative()
+
+
+print("largest factor of the wall in bond: %.6g" % bond())

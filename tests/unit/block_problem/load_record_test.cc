@@ -132,3 +132,29 @@ TEST(LoadRecord, WarnsOfATwentiethOfTheWorkThatDampingTakes)
     EXPECT_NEAR(stage["damping by work of the load pattern"], share, 1e-12);
   }
 }
+
+TEST(LoadRecord, WarnsOfAFactorThatIsAboveItsMeans)
+{
+  // A model bears 0.25; the factor has a spike of so many rows of 1500.
+  for (const unsigned int spike : { 1U, 20U, 150U })
+  {
+    LoadRecord record;
+    for (unsigned int i = 0; i <= 1500; ++i)
+    {
+      const double moved = 1e-6 * i, at_rest = std::min(0.25, 1e3 * moved);
+      const double factor = at_rest + (i >= 700 && i < 700 + spike ? 0.05 : 0.);
+      record.add_factor(factor, moved, 1e-3 * i);
+      record.add_work(factor, 1e4 * moved, 0.);
+    }
+    nlohmann::ordered_json stage;
+    record.summarise(stage);
+    const double mean
+        = stage["largest load factor"]["mean over a twentieth of the stage"];
+    EXPECT_NEAR(mean, spike == 150 ? 0.3 : 0.25, spike == 20 ? 0.02 : 1e-3);
+    EXPECT_EQ(record.warning().empty(), spike == 150);
+    if (spike == 150)
+      continue;
+    EXPECT_NE(record.warning().find("largest load factor, 0.3 at time 0.7"),
+              std::string::npos);
+  }
+}
