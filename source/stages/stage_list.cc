@@ -58,6 +58,30 @@ namespace quoin
         section.fail("Release ramp", why);
     }
 
+    /** Refuses a release of less than stages before have released already. */
+    void check_releases(const ParameterSection &section,
+                        const std::vector<StageParameters> &stages)
+    {
+      const StageParameters *most = nullptr; // since the last excavation
+      for (const StageParameters &stage : stages)
+      {
+        if (stage.safety)
+          continue;
+        if (most && stage.excavate.empty() && stage.release < most->release)
+          ParameterSection(section, stage.name)
+              .fail("Release", text_of("is less than ", most->release,
+                                       ", the share that stage '", most->name,
+                                       "' has released: support pressure that "
+                                       "has been released does "
+                                       "not come back. Give ",
+                                       most->release,
+                                       " or more, or place blocks by "
+                                       "'Fill'."));
+        if (!stage.excavate.empty() || (most && stage.release > most->release))
+          most = &stage;
+      }
+    }
+
     /** Checks the order and the times of stages. */
     void check_order(const ParameterSection &section,
                      const std::vector<StageParameters> &stages)
@@ -196,6 +220,7 @@ namespace quoin
       check_stage(ParameterSection(section, stage.name), stage,
                   is_implicit || comes_to_rest(stage, loads), has_excavated);
     }
+    check_releases(section, stages);
     check_loads(top.file(), stages, loads);
     for (const LoadParameters &load : loads)
       if (load.type == LoadType::boundary_elements)
