@@ -647,13 +647,14 @@ namespace quoin
     constexpr double least = 1e-3;
     if (n_cells == 0 || smallest_height >= least * median_edge)
       return "";
-    // Of an equilateral triangle.
-    const double usual = 0.5 * std::sqrt(3.) * median_edge;
+    // The stiffness of a sliver goes with the inverse of its height, and its
+    // nodes have the mass of the cells around it.
+    const double longer = std::sqrt(median_edge / smallest_height);
     return text_of("the ", dimension == 2 ? "triangle" : "tetrahedron", " at ",
                    position(smallest_position), " m is only ", smallest_height,
                    " m high, where edges are ", median_edge,
-                   " m long in the median: explicit time steps would be up to ",
-                   usual / smallest_height,
+                   " m long in the median: explicit time steps would be about ",
+                   longer,
                    " times as long without such slivers, and equilibria lose "
                    "digits. Unite the points of the geometry that nearly "
                    "coincide there, or move the curve that a point nearly lies "
