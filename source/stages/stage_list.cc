@@ -58,27 +58,32 @@ namespace quoin
         section.fail("Release ramp", why);
     }
 
-    /** Refuses a release of less than stages before have released already. */
+    /** Refuses a release of less than stages before have released already. Of
+        one that a condition may end before that is not known. */
     void check_releases(const ParameterSection &section,
                         const std::vector<StageParameters> &stages)
     {
-      const StageParameters *most = nullptr; // since the last excavation
+      double released = 0.; // since the last excavation
+      std::string by;
       for (const StageParameters &stage : stages)
       {
         if (stage.safety)
           continue;
-        if (most && stage.excavate.empty() && stage.release < most->release)
+        if (!stage.excavate.empty())
+          released = 0.;
+        if (stage.release < released)
           ParameterSection(section, stage.name)
-              .fail("Release", text_of("is less than ", most->release,
-                                       ", the share that stage '", most->name,
-                                       "' has released: support pressure that "
-                                       "has been released does "
-                                       "not come back. Give ",
-                                       most->release,
-                                       " or more, or place blocks by "
-                                       "'Fill'."));
-        if (!stage.excavate.empty() || (most && stage.release > most->release))
-          most = &stage;
+              .fail("Release",
+                    text_of("is less than ", released,
+                            ", the share that stage '", by,
+                            "' has released: support pressure that has been "
+                            "released does not come back. Give ",
+                            released, " or more, or place blocks by 'Fill'."));
+        if (stage.end_conditions.empty() && stage.release > released)
+        {
+          released = stage.release;
+          by       = stage.name;
+        }
       }
     }
 
