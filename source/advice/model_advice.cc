@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/advice/contact_advice.h>
+#include <quoin/advice/support_advice.h>
 #include <quoin/base/known_names.h>
 #include <quoin/parameters/plausibility.h>
 #include <quoin/signals/time_function.h>
@@ -32,22 +33,19 @@ namespace quoin
                    "all processes share.");
     }
 
-    /** Warns of elements of bars that are too long for the forces in them. */
-    void check_bars(const Parameters &parameters, Advice &advice)
+    /** Warns of cells so low that they alone make steps short; those of rigid
+        blocks do not. */
+    void check_slivers(const Parameters &parameters, const MeshReport &report,
+                       Advice &advice)
     {
-      for (const CableParameters &cable : parameters.model.cables)
-      {
-        const double decay
-            = std::sqrt(cable.law.stiffness / cable.law.bond_stiffness);
-        Checks(advice, "reinforcement " + cable.name + ": ")
-            .warn_if(cable.law.bond_stiffness > 0.
-                         && cable.element_length > decay,
-                     "its force falls by the factor e over ", decay,
-                     " m of bond, sqrt(E A / bond stiffness), and its elements "
-                     "are up to ",
-                     cable.element_length,
-                     " m long: lower 'Element length' to a third of that.");
-      }
+      const auto &materials  = parameters.model.materials;
+      const std::string text = report.sliver_text();
+      Checks(advice, "")
+          .warn_if(!text.empty()
+                       && std::any_of(materials.begin(), materials.end(),
+                                      [](const MaterialParameters &material)
+                                      { return !material.rigid; }),
+                   text);
     }
 
     /** Warns of joints that the initial stress takes beyond their strength. */
@@ -412,7 +410,12 @@ namespace quoin
     Advice advice = report.warnings();
     check_ranks(report, model.nodes(), advice);
     check_laws(parameters, advice);
-    check_bars(parameters, advice);
+    check_slivers(parameters, report, advice);
+    if constexpr (dim == 2)
+    {
+      check_bars(model, advice);
+      check_water(parameters, model.nodes(), advice);
+    }
     check_initial_joints(parameters, model, state, advice);
     check_initial_stress(model, advice);
     check_materials(parameters, model, advice);

@@ -210,8 +210,11 @@ namespace quoin
           = dealii::Utilities::trim(line.rest.substr(0, equals));
       const auto known
           = nearest_first(name, declared_names(prm, path, is_section));
-      if (!is_section && (line.keyword != "set" || equals == std::string::npos))
+      if (!is_section && line.keyword != "set")
         return {};
+      if (!is_section && equals == std::string::npos)
+        return { "the '=' is missing in 'set " + line.rest + "'.",
+                 "Write 'set NAME = VALUE'. " };
       if (!is_among(name, known))
         return complaint(std::string("there is no ")
                              + (is_section ? "subsection" : "parameter") + " '"

@@ -6,6 +6,7 @@
 #include <quoin/block_problem/block_stage.h>
 #include <quoin/joint_elements/joint_changes.h>
 #include <quoin/results/result_origin.h>
+#include <quoin/structures/beam_fields.h>
 
 namespace quoin
 {
@@ -115,6 +116,7 @@ namespace quoin
     follow_joint_motion();
     warn_of_joint_motion();
     warn_of_unstable_beams();
+    warn_of_overstressed_beams();
     warn_of_lost_bond();
     if (const std::string what = context.loads[index].warning(); !what.empty())
       log.warning("stage ", stage.name, ": ", what);
@@ -338,6 +340,23 @@ namespace quoin
                       "Give it an imperfection, 'Points' that are bent by some "
                       "thousandths of its length or a small 'Line load', to "
                       "see how much it bears.");
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_overstressed_beams() const
+  {
+    if constexpr (dim == 2)
+      if (const Beams *beams = system.solver->loads().beams.get())
+        for (std::size_t b = 0; b < beams->all().size(); ++b)
+        {
+          const Beam &beam = beams->all()[b];
+          if (!state.template get<BeamState>().placed[b])
+            continue;
+          if (const std::string what
+              = overstress_text(beam.line, beam_fields(beam, state));
+              !what.empty())
+            log.warning("stage ", stage.name, ": ", what);
+        }
   }
 
   template <int dim>

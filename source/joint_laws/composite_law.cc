@@ -257,13 +257,12 @@ namespace quoin
     double residual = angle;
     entries.angle_or_same(
         "Residual friction angle", residual,
-        "friction angle of the failed joint, or 'same' as 'Friction angle'");
-    entries.check(residual >= 0. && residual <= 89., "Residual friction angle",
-                  "must lie between 0 and 89 degrees, or be 'same'.");
+        "friction angle of the failed joint, at most 'Friction angle', or "
+        "'same' as it");
+    entries.check_residual_angle(residual, angle);
     law.friction          = tangent_of_degrees(angle);
     law.residual_friction = tangent_of_degrees(residual);
-    entries.check(law.tension * std::max(law.friction, law.residual_friction)
-                      <= law.cohesion,
+    entries.check(law.tension * law.friction <= law.cohesion,
                   "Tensile strength",
                   "must not exceed 'Cohesion' over the tangent of the friction "
                   "angle, where shear strength ends.");

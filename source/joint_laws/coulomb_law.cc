@@ -64,12 +64,11 @@ namespace quoin
                           "cohesion of the failed joint", "Pa");
       entries.angle_or_same(
           "Residual friction angle", failed_angle,
-          "friction angle of the failed joint, or 'same' as 'Friction angle'");
+          "friction angle of the failed joint, at most 'Friction angle', or "
+          "'same' as it");
       entries.nonnegative("Residual tensile strength", law.residual.tension,
                           "tensile strength of the failed joint", "Pa");
-      entries.check(failed_angle >= 0. && failed_angle <= 89.,
-                    "Residual friction angle",
-                    "must lie between 0 and 89 degrees, or be 'same'.");
+      entries.check_residual_angle(failed_angle, peak_angle);
       entries.check(law.residual.cohesion <= law.peak.cohesion,
                     "Residual cohesion", "must not exceed 'Cohesion'.");
       entries.check(law.residual.tension <= law.peak.tension,

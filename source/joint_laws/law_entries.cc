@@ -182,6 +182,13 @@ namespace quoin
       section->fail(name, why);
   }
 
+  void LawEntries::check_residual_angle(const double residual,
+                                        const double peak) const
+  {
+    check(residual >= 0. && residual <= peak, "Residual friction angle",
+          "must lie between 0 and 'Friction angle', or be 'same'.");
+  }
+
   void LawEntries::refuse_numbers(const std::vector<std::string> &names,
                                   const std::string &chooser) const
   {

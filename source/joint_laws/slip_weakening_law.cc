@@ -26,10 +26,9 @@ namespace quoin
     double residual = angle;
     entries.angle_or_same(
         "Residual friction angle", residual,
-        "friction angle of the failed joint, or 'same' as 'Friction angle'");
-    entries.check(residual >= 0. && residual <= angle,
-                  "Residual friction angle",
-                  "must lie between 0 and 'Friction angle', or be 'same'.");
+        "friction angle of the failed joint, at most 'Friction angle', or "
+        "'same' as it");
+    entries.check_residual_angle(residual, angle);
     entries.check(law.residual_cohesion <= law.cohesion, "Residual cohesion",
                   "must not exceed 'Cohesion'.");
     law.friction          = tangent_of_degrees(angle);

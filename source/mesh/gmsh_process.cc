@@ -166,8 +166,9 @@ namespace quoin
     if (!channel.is_complete())
       fail_on_mesh(
           source,
-          "gmsh ended while it read the file, which is damaged or has a "
-          "command such as Exit. Open it in gmsh and repair it there.");
+          "gmsh ended while it read or meshed the file, which is damaged, has "
+          "a command such as Exit, or a surface whose curves cross each other. "
+          "Open it in gmsh and repair it there.");
     return mesh;
   }
 } // namespace quoin

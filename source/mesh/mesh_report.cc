@@ -3,6 +3,7 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/number_text.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/base/point_text.h>
 #include <quoin/base/rtree.h>
 #include <quoin/mesh/mesh_report.h>
@@ -86,6 +87,52 @@ namespace quoin
       }
       report.smallest_angle
           = std::acos(std::min(1., largest_cosine)) / constants::degree;
+    }
+
+    /** Height of the corner @p k of the simplex @p x above the opposite side
+        [m]. */
+    double height(const std::array<dealii::Point<2>, 3> &x,
+                  const unsigned int k)
+    {
+      const auto &a = x[(k + 1) % 3], &b = x[(k + 2) % 3];
+      return std::abs(twice_area(a, b, x[k])) / a.distance(b);
+    }
+    double height(const std::array<dealii::Point<3>, 4> &x,
+                  const unsigned int k)
+    {
+      const auto &a = x[(k + 1) % 4];
+      const auto normal
+          = dealii::cross_product_3d(x[(k + 2) % 4] - a, x[(k + 3) % 4] - a);
+      return std::abs(normal * (x[k] - a)) / normal.norm();
+    }
+
+    /** Median of edges and the lowest of all cells. */
+    template <int dim>
+    void add_heights(const BlockMesh<dim> &mesh, MeshReport &report)
+    {
+      report.smallest_height = std::numeric_limits<double>::max();
+      std::vector<double> edges; // one of each cell
+      edges.reserve(mesh.cells.size());
+      for (const auto &cell : mesh.cells)
+      {
+        std::array<dealii::Point<dim>, dim + 1> x;
+        dealii::Point<dim> middle;
+        for (unsigned int k = 0; k <= dim; ++k)
+        {
+          x[k] = mesh.vertices[cell[k]];
+          middle += x[k] / (dim + 1.);
+        }
+        edges.push_back(x[0].distance(x[1]));
+        for (unsigned int k = 0; k <= dim; ++k)
+          if (const double h = height(x, k); h < report.smallest_height)
+          {
+            report.smallest_height   = h;
+            report.smallest_position = in_space(middle);
+          }
+      }
+      const auto half = edges.begin() + edges.size() / 2;
+      std::nth_element(edges.begin(), half, edges.end());
+      report.median_edge = *half;
     }
 
     template <int dim>
@@ -481,6 +528,7 @@ namespace quoin
         = dealii::BoundingBox<dim>(mesh.vertices).get_boundary_points();
     report.box = { { in_space(corners.first), in_space(corners.second) } };
     add_quality(mesh, report);
+    add_heights(mesh, report);
     add_joints(mesh, report);
     // A node in the middle of each edge, of which inner ones have two cells.
     if (mesh.quadratic)
@@ -591,5 +639,25 @@ namespace quoin
                        + ", where both then have their mass and stiffness. "
                        + overlap_cure());
     return result;
+  }
+
+  std::string MeshReport::sliver_text() const
+  {
+    /** Height of a sliver by the median of edges. */
+    constexpr double least = 1e-3;
+    if (n_cells == 0 || smallest_height >= least * median_edge)
+      return "";
+    // The stiffness of a sliver goes with the inverse of its height, and its
+    // nodes have the mass of the cells around it.
+    const double longer = std::sqrt(median_edge / smallest_height);
+    return text_of("the ", dimension == 2 ? "triangle" : "tetrahedron", " at ",
+                   position(smallest_position), " m is only ", smallest_height,
+                   " m high, where edges are ", median_edge,
+                   " m long in the median: explicit time steps would be about ",
+                   longer,
+                   " times as long without such slivers, and equilibria lose "
+                   "digits. Unite the points of the geometry that nearly "
+                   "coincide there, or move the curve that a point nearly lies "
+                   "on.");
   }
 } // namespace quoin

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/base/point_text.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/mesh/global_geometry.h>
@@ -322,6 +323,56 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** " It is 0.001 m away from block 3 ..." of the nearest block that is not
+        of the body of @p block, if it is near; or nothing. Collective. */
+    std::string gap_text(const Model<2> &model, Bodies<2> &bodies,
+                         const unsigned int block)
+    {
+      /** The widest gap of which it is said, by the size of the block. */
+      constexpr double widest = 0.02;
+      const NodeMap<2> &nodes = model.nodes();
+      const auto faces        = gather_faces(
+                 nodes, std::vector<bool>(nodes.table().face_names.size(), true));
+      const auto box    = box_of_block(nodes, block);
+      double gap        = widest * box[0].distance(box[1]);
+      const auto *found = static_cast<const BoundaryFace<2> *>(nullptr);
+      for (const BoundaryFace<2> &own : faces)
+        for (unsigned int o = 0; own.block == block && o < faces.size(); ++o)
+        {
+          const BoundaryFace<2> &other = faces[o];
+          if (bodies.body(other.block) == bodies.body(block))
+            continue;
+          for (unsigned int k = 0; k < 2; ++k)
+          {
+            const double distance
+                = std::min(distance_to_segment(own.points[k], other.points[0],
+                                               other.points[1]),
+                           distance_to_segment(other.points[k], own.points[0],
+                                               own.points[1]));
+            if (distance < gap)
+            {
+              gap   = distance;
+              found = &other;
+            }
+          }
+        }
+      if (!found)
+        return "";
+      return text_of(" The nearest block, ", found->block, " near ",
+                     point_text(found->points[0]), " m, ",
+                     gap > 0. ? text_of("is only ", gap, " m away")
+                              : std::string("touches it without a joint"),
+                     ": if they are to bear on each other, let their meshes "
+                     "have the same nodes there.");
+    }
+    std::string gap_text(const Model<3> &, Bodies<3> &, const unsigned int)
+    {
+      return "";
+    }
+  } // namespace
+
   template <int dim>
   void
   check_no_free_bodies(const Model<dim> &model,
@@ -338,7 +389,8 @@ namespace quoin
           point_text(point_of_block(model.nodes(), b)),
           " m and what is joined to it can move freely, so a stage with 'End = "
           "static ratio' would not reach equilibrium. Hold it by a prescribed "
-          "motion or a driven platen, or end the stage by 'time'."));
+          "motion or a driven platen, or end the stage by 'time'.",
+          gap_text(model, bodies, b)));
     }
   }
 

@@ -274,6 +274,7 @@ namespace quoin
                                 || RockBoxParameters::read(top).is_there();
     const auto joints_of_layout
         = std::exchange(parameters.split.joints_along, {});
+    parameters.generated.joint_curves = joints_of_layout;
     const ParameterSection section(top, "Mesh");
     ParameterEntries entries(section);
     enter_mesh(entries, parameters);

@@ -340,9 +340,42 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** Refuses sets of joints that a generated wall would have if it were
+        longer or higher, or its openings smaller. */
+    void check_wall_joints(const ParameterSection &top,
+                           const Parameters &parameters)
+    {
+      const auto &has = parameters.generated.joint_curves;
+      if (parameters.generated.name != "wall")
+        return;
+      const ParameterSection section(top, "Joints");
+      for (const JointSetParameters &set : parameters.model.joints)
+        for (const std::string name : { "bed", "head" })
+          if (is_among(name, set.curves) && !is_among(name, has))
+            ParameterSection(section, set.name)
+                .fail(
+                    "Curves",
+                    "has '" + name + "', but the wall of section 'Wall' has "
+                        + (name == "head"
+                               ? "no joint between two units of a course: it "
+                                 "is "
+                                 "no longer than a unit, or its openings leave "
+                                 "no more"
+                               : "no joint between two courses: it has only "
+                                 "one, "
+                                 "or its openings leave no more")
+                        + ". Check its 'Length', 'Courses' and 'Openings', or "
+                          "take '"
+                        + set.name + "' out of 'Names'.");
+    }
+  } // namespace
+
   void read_block_model(const ParameterSection &top, Parameters &parameters)
   {
     parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
+    check_wall_joints(top, parameters);
     parameters.model.contact
         = ContactParameters::read(ParameterSection(top, "Contact"));
     parameters.model.large_displacements

@@ -111,12 +111,28 @@ namespace quoin
                      " N/m^3");
     }
 
+    std::string meant_viscosity(const double value)
+    {
+      return text_of("in mPa s, which is cP, it would be ", 1e-3 * value,
+                     " Pa s");
+    }
+
     const Range thickness{ "Thickness", 1e-3, 50., "m", meant_length };
     const Range wall_strength{ "Joint wall strength", 1e5, 1e9, "Pa",
                                meant_strength };
     const Range closure{ "Largest closure", 1e-7, 0.02, "m", meant_length };
     const Range unit_weight{ "Unit weight", 5e3, 1e5, "N/m^3",
                              meant_unit_weight };
+    const Range water_weight{ "Unit weight", 5e3, 3e4, "N/m^3",
+                              meant_unit_weight };
+    const Range viscosity{ "Viscosity", 1e-4, 0.2, "Pa s", meant_viscosity };
+
+    /** Of walls; the first that is beyond its range is warned of, because the
+        others have the same mistake. */
+    const Range wall_lengths[]
+        = { { "Unit length", 0.02, 10., "m", meant_length },
+            { "Unit height", 0.01, 5., "m", meant_length },
+            { "Length", 0.05, 500., "m", meant_length } };
 
     /** Ranges of values in all sections of a kind. */
     struct KindOfSection
@@ -180,6 +196,24 @@ namespace quoin
         begin += length;
       }
       return times;
+    }
+
+    /** Whether all components of a gravity are the number 0 or free. */
+    bool is_without_weight(const LoadParameters &load,
+                           const ParameterSection &top)
+    {
+      const ParameterSection loads(top, "Loads");
+      const ParameterSection own(loads, load.name);
+      const std::string names[] = { "Horizontal", "Lateral", "Vertical" };
+      return load.type == LoadType::gravity
+             && std::all_of(std::begin(names), std::end(names),
+                            [&](const std::string &name)
+                            {
+                              const auto value
+                                  = finite_numbers({ own.text(name) });
+                              return own.text(name) == "free"
+                                     || (value.size() == 1 && value[0] == 0.);
+                            });
     }
 
     bool have_common_blocks(const LoadParameters &a, const LoadParameters &b)
@@ -270,6 +304,22 @@ namespace quoin
           check(ParameterSection(section, name), kind.what + " " + name + ": ",
                 range, warnings);
     }
+    if (parameters.generated.name == "wall")
+    {
+      const std::size_t n = warnings.size();
+      for (const Range &range : wall_lengths)
+        if (warnings.size() == n)
+          check(ParameterSection(top, "Wall"), "wall: ", range, warnings);
+    }
+    for (const Range *range : { &water_weight, &viscosity })
+      check(ParameterSection(top, "Water"), "water: ", *range, warnings);
+    // Beside a gravity that acts one of 0 may be there for --set.
+    const bool has_weight
+        = std::any_of(parameters.loads.begin(), parameters.loads.end(),
+                      [&](const LoadParameters &load) {
+                        return load.type == LoadType::gravity
+                               && !is_without_weight(load, top);
+                      });
     /** Acceleration that no weight of a structure has [m/s^2]. */
     constexpr double most_gravity = 100.;
     for (const LoadParameters &load : parameters.loads)
@@ -285,6 +335,11 @@ namespace quoin
                           " m/s^2 is far more than usual. Check the unit."));
               break;
             }
+      if (!has_weight && is_without_weight(load, top))
+        warnings.push_back(
+            "load " + load.name
+            + ": a gravity of 0 in all directions does nothing. Give "
+              "'Vertical', such as -9.81, or remove the load.");
       if (load.type == LoadType::initial_stress)
         check(ParameterSection(ParameterSection(top, "Loads"), load.name),
               "load " + load.name + ": ", unit_weight, warnings);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace quoin
@@ -53,9 +54,11 @@ namespace quoin
       bool bonded;
     };
 
+    /** @p longest_gap: on one side of a joint, as a share of the length, for
+        which all parts with a bond have room. */
     std::vector<BarNode> place_nodes(const std::vector<Run> &runs,
                                      const CableParameters &cable,
-                                     const double length)
+                                     const double length, double &longest_gap)
     {
       std::vector<BarNode> nodes{ { runs.front().begin, runs.front().block,
                                     false } };
@@ -74,9 +77,14 @@ namespace quoin
         double end         = runs[r].end;
         const double third = (end - begin) / 3.;
         // Where a free length ends at the joint the bond begins there.
-        if (r > 0 && runs[r].begin > free + touch_tolerance)
+        const bool has_gap_before
+            = r > 0 && runs[r].begin > free + touch_tolerance;
+        const bool has_gap_after = r + 1 < runs.size();
+        if (has_gap_before || has_gap_after)
+          longest_gap = std::min(longest_gap, third);
+        if (has_gap_before)
           begin += std::min(gap, third);
-        if (r + 1 < runs.size())
+        if (has_gap_after)
           end -= std::min(gap, third);
         if (begin > nodes.front().at + touch_tolerance)
           nodes.push_back({ begin, runs[r].block, false });
@@ -182,7 +190,9 @@ namespace quoin
       if (bar.law.*value != BarLaw::unlimited)
         bar.law.*value *= bar.number;
 
-    const auto places = place_nodes(runs, given, length);
+    double longest_gap        = std::numeric_limits<double>::infinity();
+    const auto places         = place_nodes(runs, given, length, longest_gap);
+    bar.longest_active_length = 2. * longest_gap * length;
     bar.chain.bond.resize(places.size(), 0.);
     for (unsigned int i = 0; i < places.size(); ++i)
     {
@@ -200,6 +210,7 @@ namespace quoin
     for (unsigned int r = 0; r + 1 < runs.size(); ++r)
     {
       const double at = 0.5 * (runs[r].end + runs[r + 1].begin);
+      bar.crossings.push_back(point(at));
       if (runs[r + 1].begin - runs[r].end > touch_tolerance
           || at * length < given.free_length
           || (given.law.dowel_stiffness == 0.

@@ -2,7 +2,9 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
+#include <quoin/base/unread_parameters.h>
 #include <quoin/reinforcement/cable_parameters.h>
 
 #include <cmath>
@@ -70,6 +72,16 @@ namespace quoin
             "anticlockwise from x; a full turn, such as 0, 360, "
             "does not repeat the first one [deg]");
       }
+      if (const ParameterSection *section = entries.read_section())
+        refuse_unread(*section, "Pattern",
+                      { { "From", "0, 0", { "single", "row" } },
+                        { "To", "0, 0", { "single", "row" } },
+                        { "Step", "0, 0", { "row" } },
+                        { "Number", "1", { "row", "radial" } },
+                        { "Centre", "0, 0", { "radial" } },
+                        { "Radius", "0", { "radial" } },
+                        { "Length", "0", { "radial" } },
+                        { "Angles", "0, 360", { "radial" } } });
     }
 
     /** A strength, or 'unlimited'. */
@@ -156,14 +168,16 @@ namespace quoin
       law.active_length = 0.1;
       entries.positive("Active length", law.active_length,
                        "Length of the bar across a joint that has no bond and "
-                       "turns with the motion of the joint [m]");
+                       "turns with the motion of the joint; at most two thirds "
+                       "of the bonded length on either side of it, and cut to "
+                       "that if it is longer, with a warning [m]");
       constexpr double automatic = 0.;
       entries.number_or(
           "automatic", automatic, "Element length", cable.element_length,
           "Largest length of the elements of a bonded bar, or 'automatic': a "
           "quarter of the length sqrt(E A / k_b) over which the bond takes the "
           "force of the bar over, with which it is pulled out within 0.8 % of "
-          "the exact stiffness [m]");
+          "the exact stiffness; no less than a thousandth of the bar [m]");
       if (const ParameterSection *section = entries.read_section();
           section && section->text("Element length") != "automatic"
           && !(cable.element_length > 0.))
@@ -208,24 +222,63 @@ namespace quoin
       return result;
     }
 
+    /** The most elements of a bar by the length of those with bond: each of a
+        bar's steps solves for all of them, and their derivatives are a full
+        matrix. */
+    constexpr double most_elements = 1000.;
+
     /** Length of elements that make the pull-out too stiff by h^2 k_b/8 E A =
         0.8 %; of bars with more bond than most_elements of these, longer. */
     double automatic_length(const CableParameters &cable)
     {
-      constexpr double share = 0.25, most_elements = 1000.;
-      const BarLaw &law  = cable.law;
-      const auto &[a, b] = cable.bars[0];
-      const double whole = a.distance(b);
+      constexpr double share = 0.25;
+      const BarLaw &law      = cable.law;
+      const auto &[a, b]     = cable.bars[0];
+      const double whole     = a.distance(b);
       if (law.bond_stiffness == 0.)
         return whole;
       return std::max(share * std::sqrt(law.stiffness / law.bond_stiffness),
                       whole / most_elements);
     }
 
+    /** Refuses strengths of what a bar does not have. */
+    void refuse_idle_strengths(const BarLaw &law, const double friction,
+                               const ParameterSection &section)
+    {
+      const auto refuse = [&](const std::string &name, const double stiffness,
+                              const std::string &needs)
+      {
+        if (stiffness == 0. && section.text(name) != "unlimited")
+          section.fail(name, "has no effect without '" + needs
+                                 + "': there is nothing that could yield. Give "
+                                   "that, or leave this one 'unlimited'.");
+      };
+      refuse("Bond strength", law.bond_stiffness, "Bond stiffness");
+      refuse("Plate strength", law.plate_stiffness, "Plate stiffness");
+      refuse("Anchor strength", law.anchor_stiffness, "Anchor stiffness");
+      refuse("Dowel strength", law.dowel_stiffness, "Dowel stiffness");
+      refuse("Dowel axial strength", law.dowel_axial_stiffness,
+             "Dowel axial stiffness");
+      if (friction > 0.
+          && (law.bond_stiffness == 0.
+              || law.bond_strength == BarLaw::unlimited))
+        section.fail("Bond friction angle",
+                     "has no effect: it adds to a 'Bond strength', which is "
+                     "unlimited here. Give that of the bond without pressure, "
+                     "or remove this.");
+    }
+
     void check(const CableParameters &cable, const ParameterSection &section)
     {
       const BarLaw &law   = cable.law;
       const double length = cable.bars[0][0].distance(cable.bars[0][1]);
+      if (law.bond_stiffness > 0.
+          && length > (1. + 1e-9) * most_elements * cable.element_length)
+        section.fail("Element length",
+                     text_of("divides a bar of ", length, " m into more than ",
+                             most_elements, " elements. Take ",
+                             length / most_elements,
+                             " m or more, or 'automatic'."));
       if (cable.free_length >= length
           && !(cable.free_length == length && law.anchor_stiffness > 0.))
         section.fail("Free length", "must be less than the length of the bar, "
@@ -280,6 +333,7 @@ namespace quoin
     if (cable.element_length == 0.)
       cable.element_length = automatic_length(cable);
     check(cable, section);
+    refuse_idle_strengths(cable.law, entries.friction, section);
     return cable;
   }
 

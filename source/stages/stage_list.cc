@@ -58,6 +58,35 @@ namespace quoin
         section.fail("Release ramp", why);
     }
 
+    /** Refuses a release of less than stages before have released already. Of
+        one that a condition may end before that is not known. */
+    void check_releases(const ParameterSection &section,
+                        const std::vector<StageParameters> &stages)
+    {
+      double released = 0.; // since the last excavation
+      std::string by;
+      for (const StageParameters &stage : stages)
+      {
+        if (stage.safety)
+          continue;
+        if (!stage.excavate.empty())
+          released = 0.;
+        if (stage.release < released)
+          ParameterSection(section, stage.name)
+              .fail("Release",
+                    text_of("is less than ", released,
+                            ", the share that stage '", by,
+                            "' has released: support pressure that has been "
+                            "released does not come back. Give ",
+                            released, " or more, or place blocks by 'Fill'."));
+        if (stage.end_conditions.empty() && stage.release > released)
+        {
+          released = stage.release;
+          by       = stage.name;
+        }
+      }
+    }
+
     /** Checks the order and the times of stages. */
     void check_order(const ParameterSection &section,
                      const std::vector<StageParameters> &stages)
@@ -196,6 +225,7 @@ namespace quoin
       check_stage(ParameterSection(section, stage.name), stage,
                   is_implicit || comes_to_rest(stage, loads), has_excavated);
     }
+    check_releases(section, stages);
     check_loads(top.file(), stages, loads);
     for (const LoadParameters &load : loads)
       if (load.type == LoadType::boundary_elements)

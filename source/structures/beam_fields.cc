@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/structures/beam_fields.h>
 
 #include <algorithm>
@@ -76,6 +77,34 @@ namespace quoin
         result.state[i]               = double(beams.interface.state[p]);
       }
     return result;
+  }
+
+  std::string overstress_text(const BeamLine &line, const BeamFields &fields)
+  {
+    const BeamParameters &given = line.given;
+    if (given.hinge_moment != BeamParameters::by_section
+        || fields.axial.empty())
+      return "";
+    const auto [least, most]
+        = std::minmax_element(fields.axial.begin(), fields.axial.end());
+    const double pressure = -*least / given.area, tension = *most / given.area;
+    const bool is_crushed = pressure / given.compressive_strength
+                            > tension / given.tensile_strength;
+    const double stress = is_crushed ? pressure : tension;
+    const double strength
+        = is_crushed ? given.compressive_strength : given.tensile_strength;
+    if (stress <= strength)
+      return "";
+    return text_of(
+        "the axial force of the beam '", given.name, "' is ",
+        is_crushed ? *least : *most, " N at ",
+        point_text(fields.position[(is_crushed ? least : most)
+                                   - fields.axial.begin()]),
+        " m, N/A = ", stress, " Pa, beyond its '",
+        is_crushed ? "Compressive" : "Tensile", " strength' of ", strength,
+        " Pa: the section bears no moment there, and nothing limits its axial "
+        "force, so that the beam bears more than it can. Take a thicker or "
+        "stronger section, or relax the rock more before it is placed.");
   }
 
   unsigned int nearest_node(const BeamLine &line, const dealii::Point<2> &point)

@@ -6,6 +6,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/water/joint_channels.h>
 
@@ -16,6 +17,13 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** Distance of a point to the joints, by the diagonal of the model, beyond
+        which it is no point of theirs [-]. */
+    constexpr double most_distance = 0.1;
+  } // namespace
+
   JointChannels::JointChannels(const WaterParameters &given,
                                const NodeMap<2> &nodes,
                                const MatchedJoints &joints,
@@ -203,6 +211,14 @@ namespace quoin
             nodes   = { i };
           }
         }
+        if (nearest > most_distance * node_map.table().diagonal())
+          throw InputError(text_of(
+              where, "'Point = ", (*boundary.point)[0], ", ",
+              (*boundary.point)[1], "' is ", nearest,
+              " m away from the nearest end or crossing of joints with water, "
+              "at ",
+              point_text(place[nodes[0]]),
+              " m. Give the coordinates of the place that is meant."));
       }
       else
         nodes = nodes_on(boundary.curves, where, "Boundary");

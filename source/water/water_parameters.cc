@@ -13,15 +13,30 @@ namespace quoin
     {
       entries.number("Initial aperture", joint.initial,
                      "Hydraulic aperture of the joints of the set where their "
-                     "mechanical opening is 0; the opening adds to it [m]");
+                     "mechanical opening is 0, between the residual and the "
+                     "largest one; the opening adds to it [m]");
       entries.positive("Residual aperture", joint.residual,
                        "Smallest hydraulic aperture, of closed joints [m]");
       entries.positive("Largest aperture", joint.largest,
                        "Largest hydraulic aperture, of wide open joints [m]");
-      if (const ParameterSection *section = entries.read_section();
-          section && joint.largest < joint.residual)
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      if (joint.largest < joint.residual)
         section->fail("Largest aperture", "must not be less than 'Residual "
                                           "aperture'.");
+      // Otherwise openings would do nothing before they are beyond the
+      // difference, and the joint would not have the aperture that is given.
+      if (joint.largest < joint.initial)
+        section->fail("Largest aperture",
+                      "must not be less than 'Initial aperture = "
+                          + section->text("Initial aperture")
+                          + "', which joints have where their opening is 0.");
+      if (joint.initial < joint.residual)
+        section->fail("Residual aperture",
+                      "must not be more than 'Initial aperture = "
+                          + section->text("Initial aperture")
+                          + "', which joints have where their opening is 0.");
     }
 
     void enter_boundary(ParameterEntries &entries, WaterBoundary &boundary)

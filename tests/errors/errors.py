@@ -80,7 +80,8 @@ def prepare(folder, edit=None):
     """Copies the base cases; returns the parameter file of blocks."""
     for name in ("base.geo", "crack.geo", "boundary.prm", "hybrid.prm",
                  "space.geo", "space.prm", "gap.geo", "open_end.geo",
-                 "blocks.obj", "open.obj", "overlap.geo", "quake.AT2"):
+                 "blocks.obj", "open.obj", "overlap.geo", "apart.geo",
+                 "quake.AT2"):
         shutil.copy(os.path.join(HERE, name), folder)
     with open(os.path.join(HERE, "base.prm")) as stream:
         text = stream.read()

@@ -161,6 +161,8 @@ namespace quoin
     void warn_of_joint_motion() const;
     /** Warns of beams that would buckle. */
     void warn_of_unstable_beams() const;
+    /** Warns of beams whose axial force is beyond their strength. */
+    void warn_of_overstressed_beams() const;
     /** Warns if joints lost their bond while loads came on; collective. */
     void warn_of_lost_bond() const;
     /** Records the loads of the row for @p time [s]. */

@@ -39,6 +39,12 @@ namespace quoin
     /** Shortest edge of a cell, linear or quadratic [m]. */
     double shortest_edge = 0.;
     double longest_edge  = 0.; /**< [m] */
+    /** Of the edges of cells [m]. */
+    double median_edge = 0.;
+    /** Least height of a corner of a cell above the opposite side [m], and the
+        middle of that cell. */
+    double smallest_height = 0.;
+    dealii::Point<3> smallest_position;
     /** Between edges of a triangle or faces of a tetrahedron [degree]. */
     double smallest_angle = 0.;
 
@@ -73,9 +79,10 @@ namespace quoin
     {
       archive &dimension &n_blocks &n_cells &n_nodes &n_joint_faces &quadratic
           &mixed &joint_size &total_joint_size &shortest_edge &longest_edge
-              &smallest_angle &n_joint_ends &n_tied_joint_faces
-                  &n_reoriented_cells &unmatched_size &unmatched_position
-                      &overlaps &overlap_depth &overlap_position &box;
+              &median_edge &smallest_height &smallest_position &smallest_angle
+                  &n_joint_ends &n_tied_joint_faces &n_reoriented_cells
+                      &unmatched_size &unmatched_position &overlaps
+                          &overlap_depth &overlap_position &box;
     }
 
     /** Lines of text without a final newline. */
@@ -85,6 +92,9 @@ namespace quoin
     std::string overlap_cure() const;
     /** Sentences on likely mistakes in the mesh. */
     std::vector<std::string> warnings() const;
+    /** A sentence on a cell so much lower than others that it alone makes the
+        steps of deformable blocks short; empty: there is none. */
+    std::string sliver_text() const;
 
   private:
     /** A place in the words of messages, without unit. */

@@ -34,6 +34,7 @@ namespace quoin
     /** How to leave out small pieces, which shorten the time step; or empty. */
     std::string cleaning;
     bool is_mesh = false; /**< whether the text is that of a .msh file */
+    std::vector<std::string> joint_curves = {}; /**< names of its joints */
   };
 
   /** All values of a parameter file. */

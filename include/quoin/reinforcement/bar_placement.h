@@ -11,6 +11,7 @@
 #include <quoin/reinforcement/cable_parameters.h>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace quoin
@@ -41,6 +42,11 @@ namespace quoin
     BarChain chain;
     std::vector<BarHost> hosts;
     std::vector<BarDowel> dowels;
+    /** Places where it crosses joints. */
+    std::vector<dealii::Point<2>> crossings;
+    /** The longest active length for which its bonded parts beside joints have
+        room: a longer one is cut [m]. */
+    double longest_active_length = std::numeric_limits<double>::infinity();
     /** Local nodes of all hosts, those of the far end first. */
     std::vector<unsigned int> nodes;
   };

@@ -29,6 +29,10 @@ namespace quoin
 
   BeamFields beam_fields(const Beam &beam, const State<2> &state);
 
+  /** Where the axial force of @p line takes its section beyond a strength that
+      'Hinge moment = section' knows: a sentence on it; empty: nowhere. */
+  std::string overstress_text(const BeamLine &line, const BeamFields &fields);
+
   /** Node of @p line, counted along it, that is nearest to @p point in the
       mesh. */
   unsigned int nearest_node(const BeamLine &line,

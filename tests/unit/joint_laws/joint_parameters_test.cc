@@ -38,7 +38,7 @@ TEST(JointParameters, Coulomb)
                           "set Dilation angle = 30\n"
                           "set Critical shear displacement = 2e-3\n"
                           "set Residual cohesion = 1e3\n"
-                          "set Residual friction angle = 60\n"
+                          "set Residual friction angle = 30\n"
                           "set Residual tensile strength = 2e3\n");
   EXPECT_EQ(set.name, "bed");
   EXPECT_EQ(set.curves, (std::vector<std::string>{ "bed", "head" }));
@@ -51,7 +51,7 @@ TEST(JointParameters, Coulomb)
   EXPECT_DOUBLE_EQ(law.dilation, 1. / std::sqrt(3.));
   EXPECT_EQ(law.critical_shear_displacement, 2e-3);
   EXPECT_EQ(law.residual.cohesion, 1e3);
-  EXPECT_DOUBLE_EQ(law.residual.friction, std::sqrt(3.));
+  EXPECT_DOUBLE_EQ(law.residual.friction, 1. / std::sqrt(3.));
   EXPECT_EQ(law.residual.tension, 2e3);
 }
 
@@ -113,7 +113,10 @@ TEST(JointParameters, RefusesWhatMakesNoSense)
   expect_refused("set Residual friction angle = some\n",
                  "Residual friction angle = some", "1 numbers");
   expect_refused("set Residual friction angle = -4\n",
-                 "Residual friction angle = -4", "between 0 and 89");
+                 "Residual friction angle = -4", "between 0 and 'Friction");
+  expect_refused("set Friction angle = 40\n"
+                 "set Residual friction angle = 55\n",
+                 "Residual friction angle = 55", "'Friction angle', or");
   expect_refused("set Residual cohesion = 1\n", "Residual cohesion = 1",
                  "must not exceed 'Cohesion'");
   expect_refused("set Residual tensile strength = 1\n",

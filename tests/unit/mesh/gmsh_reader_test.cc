@@ -254,7 +254,7 @@ TEST(GmshReader, SurvivesTheEndOfGmsh)
       = "a = " + std::string(200000, '(') + "1" + std::string(200000, ')');
   expect_refused(write("deep.geo", deep + ";\n"), { "gmsh" });
   expect_refused(write("end.geo", two_squares + names + "Exit;\n"),
-                 { "gmsh ended", "Exit", "repair it" });
+                 { "gmsh ended", "Exit", "curves cross each other" });
   expect_two_squares(read_gmsh(fine));
 
   EXPECT_EQ(n_open(), n_open_before);

@@ -107,6 +107,28 @@ TEST(MeshReport, FindsEdgesThatTouchWithoutMatching)
       << report.warnings()[0];
 }
 
+TEST(MeshReport, FindsSlivers)
+{
+  MeshData<2> data;
+  add_grid(data, 4, 2, "rock");
+  const auto report_of = [&](const double x)
+  {
+    data.vertices[node_at(data, 1., 1.)][0] = x;
+    BlockMesh<2> mesh;
+    split_into_blocks(data, {}, mesh);
+    data.vertices[6][0] = 1.;
+    return make_mesh_report(mesh);
+  };
+  EXPECT_NEAR(report_of(1.).smallest_height, std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(report_of(0.01).sliver_text(), "");
+  const MeshReport report = report_of(1e-5);
+  EXPECT_NEAR(report.smallest_height, std::sqrt(0.5) * 1e-5, 1e-9);
+  EXPECT_GE(report.median_edge, 1.);
+  EXPECT_LE(report.median_edge, std::sqrt(2.));
+  const std::string text = report.sliver_text();
+  EXPECT_NE(text.find("is only 7.071e-06 m high"), std::string::npos) << text;
+}
+
 TEST(MeshReport, DoesNotMistakeCornersForContacts)
 {
   MeshData<2> data;

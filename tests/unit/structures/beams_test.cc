@@ -300,3 +300,30 @@ TEST(Beams, HingeKeepsItsMoment)
   EXPECT_NEAR(model.state.energy.plastic, 50. * fields.plastic[1], 1e-9);
   EXPECT_GT(stored, 0.5 * 100. * 100. / k);
 }
+
+TEST(Beams, AxialForceBeyondTheSection)
+{
+  BeamParameters beam       = section();
+  beam.points               = { { { 2., 0. } }, { { 4., 0. } } };
+  beam.n_segments           = 2;
+  beam.hinge_moment         = BeamParameters::by_section;
+  beam.compressive_strength = 0.004 * beam.modulus;
+  beam.tensile_strength     = 0.0004 * beam.modulus;
+  const auto text           = [&](const double shortening)
+  {
+    Model model(beam);
+    model.now().nodes[2].u[0] = -shortening;
+    const Beam &only          = model.beams->all()[0];
+    return overstress_text(only.line, beam_fields(only, model.state));
+  };
+  EXPECT_EQ(text(0.003), "");
+  EXPECT_NE(text(0.005).find("beyond its 'Compressive strength'"),
+            std::string::npos)
+      << text(0.005);
+  EXPECT_EQ(text(-0.0003), "");
+  EXPECT_NE(text(-0.0005).find("beyond its 'Tensile strength'"),
+            std::string::npos)
+      << text(-0.0005);
+  beam.hinge_moment = 100.;
+  EXPECT_EQ(text(0.005), "");
+}
