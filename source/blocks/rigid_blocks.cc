@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <sstream>
 
 namespace quoin
@@ -221,20 +222,48 @@ namespace quoin
              now.c * (across[0] - across[1]) - now.s * (along[0] + along[1]) };
   }
 
+  static_assert(offsetof(RigidBlockState, velocity)
+                    == offsetof(RigidBlockState, rotation) + sizeof(double),
+                "rotation and velocity are loaded as one row");
+
+  /** Some blocks, one in each lane. Rows of four numbers are transposed, as
+      single numbers that are stored one by one have to reach the cache before
+      they can be loaded as a vector. */
   struct RigidBlocks::Pack
   {
     static constexpr unsigned int lanes = native_lanes;
+    using L                             = Lanes<lanes>;
     using F                             = LaneFunctions<lanes>;
     using Value                         = F::Value;
+    using Row                           = Lanes<4>::Value;
 
-    // Lanes of held blocks, and beyond the last one, have mass and are at rest.
-    alignas(64) double force[3][lanes]{}, viscous[3][lanes]{};
-    alignas(64) double mass[3][lanes], velocity[3][lanes]{};
-    alignas(64) double rotation[lanes]{};
+    /** Of each block: force and moment, and its mass; viscous force and moment,
+        and its moment of inertia. */
+    alignas(64) double force[lanes][4], viscous[lanes][4];
+    Value rotation, velocity[3];
 
-    Pack()
+    /** Loads the motion of blocks; lanes of held blocks, and those beyond the
+        last one, are at rest and have mass. */
+    Pack(RigidBlockState *blocks, const unsigned int n,
+         const RigidBlockStage &stage, const unsigned int first)
     {
-      std::fill_n(mass[0], 3 * lanes, 1.);
+      for (unsigned int l = 0; l < lanes; ++l)
+      {
+        is_free[l] = l < n && !stage.held[first + l];
+        rows[l]    = is_free[l] ? &blocks[l].rotation : rest;
+        if (is_free[l])
+          continue;
+        Lanes<4>::set_four(force[l], Row{ 0., 0., 0., 1. });
+        Lanes<4>::set_four(viscous[l], Row{ 0., 0., 0., 1. });
+      }
+      Value row[4];
+      L::load_four([&](const int l) { return rows[l]; }, row);
+      rotation = row[0];
+      std::copy_n(row + 1, 3, velocity);
+    }
+    bool moves(const unsigned int l) const
+    {
+      return is_free[l];
     }
 
     struct Sums
@@ -248,13 +277,14 @@ namespace quoin
       const double decay        = (1. - a) / (1. + a);
       const double push         = step.dt_velocity / (1. + a);
       const double inverse_push = 1. / push;
-      Value f[3], m[3];
+      Value f[4], drags[4];
+      L::load_four([&](const int l) { return force[l]; }, f);
+      L::load_four([&](const int l) { return viscous[l]; }, drags);
+      const Value m[3] = { f[3], f[3], drags[3] };
       for (unsigned int d = 0; d < 3; ++d)
       {
-        f[d]             = F::load(force[d]);
-        m[d]             = F::load(mass[d]);
-        const Value fv   = F::load(viscous[d]);
-        const Value v0   = F::load(velocity[d]);
+        const Value fv   = drags[d];
+        const Value v0   = velocity[d];
         const Value gain = push / m[d];
         const Value w    = decay * v0 + gain * (f[d] + fv);
         const Value v1
@@ -269,12 +299,19 @@ namespace quoin
         sums.after -= drag * v1;
         sums.mass_power += 0.25 * m[d] * (v0 + v1) * (v0 + v1);
         sums.kinetic_change += 0.5 * m[d] * (v1 - v0) * (v1 + v0);
-        F::store(velocity[d], v1);
+        velocity[d] = v1;
       }
       sums.unbalanced += F::square_root(f[0] * f[0] + f[1] * f[1])
                          + F::absolute(f[2]) * F::square_root(m[0] / m[2]);
-      F::store(rotation, F::load(rotation) + step.dt * F::load(velocity[2]));
+      rotation = rotation + step.dt * velocity[2];
+      L::store_four([&](const int l) { return rows[l]; },
+                    { rotation, velocity[0], velocity[1], velocity[2] });
     }
+
+  private:
+    double rest[4]{};
+    double *rows[lanes]; /**< rotation and velocity */
+    bool is_free[lanes];
   };
 
   RigidBlockWork RigidBlocks::advance(const StepContext &step,
@@ -291,39 +328,30 @@ namespace quoin
     {
       const unsigned int n
           = std::min<unsigned int>(lanes, blocks.size() - first);
-      Pack pack;
-      for (unsigned int l = 0; l < n; ++l)
-        pack.rotation[l] = rigid[first + l].rotation;
+      Pack pack(&rigid[first], n, stage, first);
       alignas(64) double sine[2][lanes], cosine[2][lanes];
       const auto turn = [&](const unsigned int when)
       {
         F::Value s, c;
-        F::sine_cosine(F::load(pack.rotation), s, c);
+        F::sine_cosine(pack.rotation, s, c);
         F::store(sine[when], s);
         F::store(cosine[when], c);
       };
       turn(0);
       for (unsigned int l = 0; l < n; ++l)
       {
-        const unsigned int b = first + l;
-        const Block &block   = blocks[b];
-        if (!stage.held[b])
+        const Block &block = blocks[first + l];
+        if (pack.moves(l))
         {
           const Direction now(cosine[0][l], sine[0][l]);
-          const auto mass = inertia(stage, b);
+          const auto mass = inertia(stage, first + l);
           const auto f    = resultant(block, now, force);
-          for (unsigned int d = 0; d < 3; ++d)
-          {
-            pack.force[d][l]    = f[d];
-            pack.mass[d][l]     = mass[d];
-            pack.velocity[d][l] = rigid[b].velocity[d];
-          }
-          if (viscous)
-          {
-            const auto fv = resultant(block, now, viscous);
-            for (unsigned int d = 0; d < 3; ++d)
-              pack.viscous[d][l] = fv[d];
-          }
+          const auto fv   = viscous ? resultant(block, now, viscous)
+                                    : std::array<double, 3>{};
+          Lanes<4>::set_four(pack.force[l],
+                             Pack::Row{ f[0], f[1], f[2], mass[0] });
+          Lanes<4>::set_four(pack.viscous[l],
+                             Pack::Row{ fv[0], fv[1], fv[2], mass[2] });
         }
         std::fill(force + block.begin, force + block.end,
                   dealii::Tensor<1, 2>());
@@ -335,14 +363,11 @@ namespace quoin
       turn(1);
       for (unsigned int l = 0; l < n; ++l)
       {
-        const unsigned int b = first + l;
-        if (stage.held[b])
+        if (!pack.moves(l))
           continue;
-        for (unsigned int d = 0; d < 3; ++d)
-          rigid[b].velocity[d] = pack.velocity[d][l];
-        rigid[b].displacement += step.dt * vector_at(rigid[b].velocity, 0);
-        rigid[b].rotation = pack.rotation[l];
-        place_nodes(blocks[b], rigid[b], { cosine[0][l], sine[0][l] },
+        RigidBlockState &block = rigid[first + l];
+        two(block.displacement[0]) += step.dt * two(block.velocity[0]);
+        place_nodes(blocks[first + l], block, { cosine[0][l], sine[0][l] },
                     { cosine[1][l], sine[1][l] }, state);
       }
     }
