@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 
 #include <quoin/contact_geometry/edge_lanes.h>
 

@@ -351,7 +351,7 @@ REPEATED = ("deformable", "divided, cracked", "sled", "contacts, divided",
             "bars", "pattern", "implicit, divided", "implicit, space, joints")
 # Those whose blocks move little against their skin; what they show is the sums
 # of forces on both sides, of joints and then of contacts.
-LEAST_SEARCHES = {"named blocks": 8, "sled": 40, "dashpots": 20}
+LEAST_SEARCHES = {"named blocks": 8, "sled": 40, "dashpots": 12}
 TOLERANCE = 1e-10
 # Of the peak, where an equilibrium is found to 'Force ratio'.
 LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}
