@@ -237,8 +237,8 @@ namespace quoin
     using Value                         = F::Value;
     using Row                           = Lanes<4>::Value;
 
-    /** Of each block: force and moment, and its mass; viscous force and moment,
-        and its moment of inertia. */
+    /** A row of each block has its force, moment and mass, or its viscous force
+        and moment and its moment of inertia. */
     alignas(64) double force[lanes][4], viscous[lanes][4];
     Value rotation, velocity[3];
 

@@ -51,9 +51,10 @@ namespace quoin
                    "Whether a line search shortens iterations that do not "
                    "reduce the unbalanced force.");
       entries.flag("Jumps", parameters.jumps,
-                   "Whether the model, where no equilibrium is near, moves at "
-                   "constant loads against a viscous drag until it reaches "
-                   "one, as in a displacement-controlled test; the work of the "
+                   "Whether the model, where no equilibrium is near, moves "
+                   "against a viscous drag, while loads go on slowly by a "
+                   "part of the step and then rest, until it reaches one, as "
+                   "in a displacement-controlled test; the work of the "
                    "drag is booked as damping. If not, the stage fails there.");
       entries.choice(
           "Path following", parameters.path,

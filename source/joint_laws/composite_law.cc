@@ -257,12 +257,14 @@ namespace quoin
     double residual = angle;
     entries.angle_or_same(
         "Residual friction angle", residual,
-        "friction angle of the failed joint, at most 'Friction angle', or "
+        "friction angle of the failed joint, at most 'Friction angle' where it "
+        "loses no cohesion, or "
         "'same' as it");
-    entries.check_residual_angle(residual, angle);
+    entries.check_residual_angle(residual, angle, law.cohesion > 0.);
     law.friction          = tangent_of_degrees(angle);
     law.residual_friction = tangent_of_degrees(residual);
-    entries.check(law.tension * law.friction <= law.cohesion,
+    entries.check(law.tension * std::max(law.friction, law.residual_friction)
+                      <= law.cohesion,
                   "Tensile strength",
                   "must not exceed 'Cohesion' over the tangent of the friction "
                   "angle, where shear strength ends.");

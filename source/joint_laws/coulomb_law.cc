@@ -62,13 +62,15 @@ namespace quoin
       law.residual.cohesion = law.residual.tension = 0.;
       entries.nonnegative("Residual cohesion", law.residual.cohesion,
                           "cohesion of the failed joint", "Pa");
-      entries.angle_or_same(
-          "Residual friction angle", failed_angle,
-          "friction angle of the failed joint, at most 'Friction angle', or "
-          "'same' as it");
+      entries.angle_or_same("Residual friction angle", failed_angle,
+                            "friction angle of the failed joint, at most "
+                            "'Friction angle' where it "
+                            "loses no cohesion, or "
+                            "'same' as it");
       entries.nonnegative("Residual tensile strength", law.residual.tension,
                           "tensile strength of the failed joint", "Pa");
-      entries.check_residual_angle(failed_angle, peak_angle);
+      entries.check_residual_angle(failed_angle, peak_angle,
+                                   law.residual.cohesion < law.peak.cohesion);
       entries.check(law.residual.cohesion <= law.peak.cohesion,
                     "Residual cohesion", "must not exceed 'Cohesion'.");
       entries.check(law.residual.tension <= law.peak.tension,

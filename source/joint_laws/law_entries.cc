@@ -183,10 +183,17 @@ namespace quoin
   }
 
   void LawEntries::check_residual_angle(const double residual,
-                                        const double peak) const
+                                        const double peak,
+                                        const bool loses_cohesion) const
   {
-    check(residual >= 0. && residual <= peak, "Residual friction angle",
-          "must lie between 0 and 'Friction angle', or be 'same'.");
+    if (loses_cohesion)
+      check(residual >= 0. && residual <= 89., "Residual friction angle",
+            "must lie between 0 and 89 degrees, or be 'same'.");
+    else
+      check(residual >= 0. && residual <= peak, "Residual friction angle",
+            "must lie between 0 and 'Friction angle', or be 'same', as the "
+            "joint loses no cohesion: the failed joint would be stronger at "
+            "any pressure.");
   }
 
   void LawEntries::refuse_numbers(const std::vector<std::string> &names,

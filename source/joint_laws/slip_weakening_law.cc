@@ -26,9 +26,10 @@ namespace quoin
     double residual = angle;
     entries.angle_or_same(
         "Residual friction angle", residual,
-        "friction angle of the failed joint, at most 'Friction angle', or "
+        "friction angle of the failed joint, at most 'Friction angle' where it "
+        "loses no cohesion, or "
         "'same' as it");
-    entries.check_residual_angle(residual, angle);
+    entries.check_residual_angle(residual, angle, false);
     entries.check(law.residual_cohesion <= law.cohesion, "Residual cohesion",
                   "must not exceed 'Cohesion'.");
     law.friction          = tangent_of_degrees(angle);

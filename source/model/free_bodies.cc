@@ -335,9 +335,9 @@ namespace quoin
       const NodeMap<2> &nodes = model.nodes();
       const auto faces        = gather_faces(
                  nodes, std::vector<bool>(nodes.table().face_names.size(), true));
-      const auto box    = box_of_block(nodes, block);
-      double gap        = widest * box[0].distance(box[1]);
-      const auto *found = static_cast<const BoundaryFace<2> *>(nullptr);
+      const auto box               = box_of_block(nodes, block);
+      double gap                   = widest * box[0].distance(box[1]);
+      const BoundaryFace<2> *found = nullptr;
       for (const BoundaryFace<2> &own : faces)
         for (unsigned int o = 0; own.block == block && o < faces.size(); ++o)
         {

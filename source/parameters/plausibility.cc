@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace quoin
 {
@@ -127,8 +128,8 @@ namespace quoin
                               meant_unit_weight };
     const Range viscosity{ "Viscosity", 1e-4, 0.2, "Pa s", meant_viscosity };
 
-    /** Of walls; the first that is beyond its range is warned of, because the
-        others have the same mistake. */
+    /** Lengths of a generated wall; the first that is beyond its range is
+       warned of, because the others have the same mistake. */
     const Range wall_lengths[]
         = { { "Unit length", 0.02, 10., "m", meant_length },
             { "Unit height", 0.01, 5., "m", meant_length },
@@ -196,6 +197,27 @@ namespace quoin
         begin += length;
       }
       return times;
+    }
+
+    /** Pressure beyond which a joint gains strength as it fails [Pa]; infinite:
+        at none. */
+    double pressure_of_gain(const JointLaw &law)
+    {
+      const auto *coulomb   = std::get_if<CoulombLaw>(&law);
+      const auto *composite = std::get_if<CompositeLaw>(&law);
+      double loss = 0., gain = 0.; // of cohesion [Pa], of friction
+      if (coulomb)
+      {
+        loss = coulomb->peak.cohesion - coulomb->residual.cohesion;
+        gain = coulomb->residual.friction - coulomb->peak.friction;
+      }
+      if (composite)
+      {
+        loss = composite->cohesion;
+        gain = composite->residual_friction - composite->friction;
+      }
+      return gain > 1e-9 ? loss / gain
+                         : std::numeric_limits<double>::infinity();
     }
 
     /** Whether all components of a gravity are the number 0 or free. */
@@ -294,6 +316,14 @@ namespace quoin
         for (const Range *range : { &cohesion, &friction, &tension, &crushing,
                                     &wall_strength, &closure })
           check(own, where, *range, warnings);
+        if (const double pressure = pressure_of_gain(set.law);
+            std::isfinite(pressure))
+          warnings.push_back(text_of(
+              where, "beyond a pressure of ", pressure,
+              " Pa the failed joint is stronger than the intact one, as its "
+              "'Residual friction angle' is larger: forces and factors of "
+              "safety may be too large there. Give at most 'Friction angle' "
+              "unless tests reached such pressures."));
       }
     }
     for (const KindOfSection &kind : kinds_of_sections())

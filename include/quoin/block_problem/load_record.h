@@ -141,8 +141,8 @@ namespace quoin
 
     Peak peak;
     PatternWork pattern;
-    /** Of equally distant rows, since the first one: the work of a load pattern
-        with the factor 1 and its work [J]. */
+    /** The work of a load pattern with the factor 1 and its work since the
+       first row [J], in turn, of rows at equal distances. */
     std::vector<double> path;
     unsigned int n_per_place = 1; /**< rows from one to the next */
     std::array<Axis, 3> axes;

@@ -69,10 +69,11 @@ namespace quoin
     void check(bool is_right, const std::string &name,
                const std::string &why) const;
 
-    /** Refuses a residual friction angle that is negative or above that of the
-        @p peak [deg]: a joint that gains strength as it fails would make
-        factors of safety unsafe. */
-    void check_residual_angle(double residual, double peak) const;
+    /** Refuses a @p residual friction angle [deg] that is negative or, unless
+        the joint loses cohesion as it fails, above that of the @p peak: the
+        failed joint would be stronger at any pressure. */
+    void check_residual_angle(double residual, double peak,
+                              bool loses_cohesion) const;
 
     /** Refuses what is given of @p names, numbers that are 0 by default: the
         value of @p chooser leaves them without effect. */

@@ -39,7 +39,7 @@ namespace quoin
     /** Shortest edge of a cell, linear or quadratic [m]. */
     double shortest_edge = 0.;
     double longest_edge  = 0.; /**< [m] */
-    /** Of the edges of cells [m]. */
+    /** Median length of the edges of cells [m]. */
     double median_edge = 0.;
     /** Least height of a corner of a cell above the opposite side [m], and the
         middle of that cell. */

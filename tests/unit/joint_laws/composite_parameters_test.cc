@@ -94,8 +94,8 @@ TEST(CompositeParameters, Refuses)
                  "or 'none'");
   expect_refused("set Tensile strength = 0.5e6\n", "Tensile strength",
                  "must not exceed 'Cohesion' over");
-  expect_refused("set Residual friction angle = 60\n",
-                 "Residual friction angle", "and 'Friction angle', or");
+  expect_refused("set Residual friction angle = 60\n", "Tensile strength",
+                 "must not exceed 'Cohesion' over");
   expect_refused("set Residual friction angle = 95\n",
                  "Residual friction angle", "or be 'same'");
   expect_refused("set Residual friction angle = 20\nset Dilation angle = 25\n",

@@ -38,7 +38,7 @@ TEST(JointParameters, Coulomb)
                           "set Dilation angle = 30\n"
                           "set Critical shear displacement = 2e-3\n"
                           "set Residual cohesion = 1e3\n"
-                          "set Residual friction angle = 30\n"
+                          "set Residual friction angle = 60\n"
                           "set Residual tensile strength = 2e3\n");
   EXPECT_EQ(set.name, "bed");
   EXPECT_EQ(set.curves, (std::vector<std::string>{ "bed", "head" }));
@@ -51,7 +51,7 @@ TEST(JointParameters, Coulomb)
   EXPECT_DOUBLE_EQ(law.dilation, 1. / std::sqrt(3.));
   EXPECT_EQ(law.critical_shear_displacement, 2e-3);
   EXPECT_EQ(law.residual.cohesion, 1e3);
-  EXPECT_DOUBLE_EQ(law.residual.friction, 1. / std::sqrt(3.));
+  EXPECT_DOUBLE_EQ(law.residual.friction, std::sqrt(3.));
   EXPECT_EQ(law.residual.tension, 2e3);
 }
 
