@@ -524,9 +524,10 @@ namespace quoin
       PairLanes<lanes> at;
       L::load(reinterpret_cast<const char *>(&pairs->shift),
               sizeof(ContactPair), pair, at.shift, at.shift_start);
-      at.was_joint = F::each([&](const int l) -> double
-                             { return pairs[pair[l]].was_joint; })
-                     != 0.;
+      unsigned int was_joint = 0;
+      for (unsigned int l = 0; l < lanes; ++l)
+        was_joint |= (pairs[pair[l]].was_joint != 0 ? 1U : 0U) << l;
+      at.was_joint          = F::mask_of(was_joint);
       at.active             = none == none;
       const Bits is_general = at.was_joint == Bits{};
       Value share, depth_limit;
@@ -538,9 +539,7 @@ namespace quoin
       PairGeometry<lanes> g;
       const unsigned int found
           = F::set_lanes(moving.find_geometry(at, ea, a, eb, b, g)) & all;
-      const Bits present
-          = F::each([&](const int l) { return found >> l & 1 ? 1. : 0.; })
-            != 0.;
+      const Bits present = F::mask_of(found);
       TractionLanes<lanes> forces, viscous;
       for (unsigned int k = 0; k < 2 && found != 0; ++k)
       {

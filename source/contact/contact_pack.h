@@ -76,11 +76,8 @@ namespace quoin
       if constexpr (lanes == 1)
         now.state[0] = points[0]->state;
       else
-      {
-        const auto bytes = __builtin_convertvector((Bits)rest & last_byte,
-                                                   typename F::Bytes);
-        std::memcpy(now.state, &bytes, sizeof(bytes));
-      }
+        F::store_bytes(reinterpret_cast<std::uint8_t *>(now.state),
+                       (Bits)rest & last_byte);
     }
 
     /** Does not write the lanes beside those @p present. */

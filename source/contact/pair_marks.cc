@@ -4,7 +4,9 @@
 #include "pair_marks.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include <quoin/contact_geometry/edge_lanes.h>
 
@@ -55,7 +57,10 @@ namespace quoin
     if (is_first)
     {
       motion = 0.;
-      contacts.clear_until.assign(contacts.pairs.size(), 0.);
+      // Beyond the last pair there is none that falls due.
+      contacts.clear_until.assign(contacts.marks.size(),
+                                  std::numeric_limits<double>::infinity());
+      std::fill_n(contacts.clear_until.begin(), contacts.pairs.size(), 0.);
       if (contacts.marked_for == 0.)
         contacts.marked_for = first_motion * contacts.skin;
     }
@@ -70,10 +75,18 @@ namespace quoin
     constexpr unsigned int lanes = native_lanes;
     using F                      = LaneFunctions<lanes>;
     std::vector<unsigned int> due;
-    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
-      if (contacts.clear_until[i] < motion + contacts.marked_for
-          && contacts.marks[i] != PairMark::active)
-        due.push_back(i);
+    const double until = motion + contacts.marked_for;
+    for (unsigned int i = 0; i < contacts.clear_until.size(); i += lanes)
+    {
+      const F::Bits mark = F::load_bytes(
+          reinterpret_cast<const std::uint8_t *>(&contacts.marks[i]));
+      const F::Bits is_early = F::load(&contacts.clear_until[i]) < until;
+      const F::Bits is_idle
+          = mark != static_cast<std::int64_t>(PairMark::active);
+      for (unsigned int early = F::set_lanes(is_early & is_idle); early != 0;
+           early &= early - 1)
+        due.push_back(i + __builtin_ctz(early));
+    }
     for (unsigned int j = 0; j < due.size(); j += lanes)
     {
       const unsigned int n = std::min<unsigned int>(lanes, due.size() - j);

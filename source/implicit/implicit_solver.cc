@@ -9,7 +9,6 @@
 #include <quoin/implicit/rest_time.h>
 #include <quoin/implicit/worst_place.h>
 #include <quoin/motions/prescribed_motion.h>
-#include <quoin/joint_elements/joint_tangent.h>
 #include <quoin/model/free_bodies.h>
 #include <quoin/operators/archive.h>
 #include <quoin/water/joint_flow.h>
@@ -35,27 +34,12 @@ namespace quoin
     constexpr double collapse_share = 0.05;
     /** Ratio of drag to applied force below which a jump may have ended. */
     constexpr double jump_ends = 1e-4;
-    /** Ratio of unbalanced to drag force in a trial of the factor of safety. */
-    constexpr double drag_share = 0.1;
     /** Way to the equilibrium behind a jump, by that of the jump, below which a
         search for the factor of safety takes it. */
     constexpr double near_share = 0.25;
     /** Path by that with a fifth of the drag, above which it is not the drag
         that limits it [-]. */
     constexpr double at_once_share = 0.9;
-    /** Tolerated relative error of the path's length [-]. */
-    constexpr double path_tolerance = 1e-3;
-    /** Tolerated error of a controlled displacement, by its increment [-]. */
-    constexpr double control_tolerance = 1e-6;
-    /** Share of a correction at which the line search gives up. */
-    constexpr double least_search_share = 0.1;
-    /** Largest ratio of unbalanced to applied forces with transient flow: the
-        water that flows in a step is a small difference of openings. */
-    constexpr double flow_force_ratio = 1e-8;
-    /** Equilibria in a step until uplift and crack belong together. */
-    constexpr unsigned int most_cracks = 50;
-    /** Least reduction of the unbalanced force by share of a correction. */
-    constexpr double least_gain = 0.1;
 
     /** Duration of a static stage with constant loads [s]. */
     constexpr double resting_duration = 1.;
@@ -138,14 +122,9 @@ namespace quoin
         model, *dof_map, operators_with(acting.nodal), path_sets, stage_start,
         all.far.elastostatic_acts ? all.far.elastostatic : nullptr,
         acting.pattern.get(), all.beams.get());
-    prediction = std::make_unique<MotionPrediction<dim>>(model, *dof_map);
-    // Multigrid gives no factor.
-    linear_solver = std::make_unique<LinearSolver<dim>>(
-        acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
-        model, *dof_map);
-    residual.reinit(dof_map->owned(), communicator);
-    slopes.by_advance = slopes.path_by_dof = correction = advanced = residual;
-    broken.assign(model.joints().n_points(), 0);
+    newton = std::make_unique<NewtonSolver<dim>>(
+        model, all, acting, stage, parameters, own_steps, *dof_map,
+        *equilibrium, time_shares, done);
   }
 
   template <int dim>
@@ -276,12 +255,14 @@ namespace quoin
         Equilibrium<dim> without(
             model, *dof_map, operators_with(previous ? before : acting.nodal),
             path_sets, stage_start, nullptr);
-        without.find_forces(state, configuration_of(dof_map->bodies(), state),
-                            broken, balance);
-        all.far.elastostatic->hold(balance.force.data(), state);
+        Balance<dim> carried;
+        without.find_forces(
+            state, configuration_of(dof_map->bodies(), state),
+            std::vector<std::uint8_t>(model.joints().n_points(), 0), carried);
+        all.far.elastostatic->hold(carried.force.data(), state);
       }
-    equilibrium->find_forces(state, configuration_of(dof_map->bodies(), state),
-                             broken, balance);
+    newton->find_forces(state);
+    const Balance<dim> &balance = newton->current_balance();
     if (balance.ratio() <= parameters.force_ratio)
       return;
     own_steps.begin_release(now);
@@ -300,358 +281,26 @@ namespace quoin
   }
 
   template <int dim>
-  bool ImplicitSolver<dim>::predict(const State<dim> &state,
-                                    const StepTarget &target,
-                                    Configuration<dim> &configuration)
-  {
-    const ImplicitState &now = state.template get<ImplicitState>();
-    if (now.moved_for <= 0. || target.path > 0. || now.released < 1.
-        || acting.pattern)
-      return false;
-    time_shares.measure(
-        assembly_phase, [&]()
-        { equilibrium->find_forces(state, configuration, broken, start); });
-    const double went
-        = now.jumps ? now.drag_step : target.load_time - state.load_time;
-    Configuration<dim> ahead = configuration;
-    prediction->move(now, went / now.moved_for, target.load_time, correction,
-                     ahead);
-    if (now.jumps)
-    {
-      // The motion may be coming to rest, or not have begun.
-      time_shares.measure(
-          assembly_phase,
-          [&]() { equilibrium->find_forces(state, ahead, broken, trial); });
-      if (trial.unbalanced >= start.unbalanced)
-        return false;
-    }
-    configuration = ahead;
-    return true;
-  }
-
-  template <int dim>
-  void
-  ImplicitSolver<dim>::remember_motion(const Configuration<dim> &configuration,
-                                       State<dim> &state) const
-  {
-    ImplicitState &now = state.template get<ImplicitState>();
-    now.moved_for      = 0.;
-    // What broke does not break again.
-    if (now.released < 1. || some_broke)
-      return;
-    const Configuration<dim> from = configuration_of(dof_map->bodies(), state);
-    prediction->remember(from, configuration, start, balance,
-                         now.jumps ? now.drag_step
-                                   : configuration.load_time - from.load_time,
-                         now);
-  }
-
-  template <int dim>
-  double
-  ImplicitSolver<dim>::error_of_prediction(const State<dim> &state,
-                                           const StepTarget &target) const
-  {
-    const ImplicitState &now = state.template get<ImplicitState>();
-    if (!is_predicted || now.jumps)
-      return 0.;
-    const double share = (target.load_time - state.load_time) / now.moved_for;
-    return std::max(balance.ratio(),
-                    prediction->error_of_reactions(now, share, start, balance));
-  }
-
-  template <int dim>
-  bool
-  ImplicitSolver<dim>::find_correction(const StepTarget &target,
-                                       const Configuration<dim> &configuration,
-                                       const bool is_first, double &share)
-  {
-    residual = 0.;
-    dof_map->add_forces(balance.force, residual);
-    dof_map->add_forces(balance.drag, residual);
-    add_body_forces(dof_map->bodies(), balance.drives, residual);
-    add_body_forces(dof_map->bodies(), balance.held, residual);
-    if (acting.pattern && dof_map->owned().is_element(dof_map->factor()))
-      residual(dof_map->factor()) += balance.lacking;
-    residual.compress(dealii::VectorOperation::add);
-    bool is_solved = false;
-    time_shares.measure(solver_phase,
-                        [&]()
-                        {
-                          is_solved
-                              = linear_solver->prepare(equilibrium->stiffness(),
-                                                       configuration)
-                                && linear_solver->solve(residual, correction);
-                        });
-    if (!is_solved)
-      return false;
-
-    const bool on_path = target.path > 0.;
-    share              = is_first ? 1.
-                         : configuration.load_time != target.load_time
-                    || configuration.released != target.released
-                             ? 1.
-                             : 0.;
-    if (on_path || share != 0.)
-    {
-      time_shares.measure(
-          solver_phase, [&]()
-          { is_solved = linear_solver->solve(slopes.by_advance, advanced); });
-      if (!is_solved)
-        return false;
-    }
-    if (on_path && !is_first)
-    {
-      const double slope
-          = slopes.path_by_dof * advanced + slopes.path_by_advance;
-      // Until a joint yields there is no path to measure: loads advance.
-      if (slope != 0.)
-        share = (target.path - balance.path - slopes.path_by_dof * correction)
-                / slope;
-    }
-    if (share != 0.)
-      correction.add(share, advanced);
-    return true;
-  }
-
-  template <int dim>
-  void ImplicitSolver<dim>::correct(const State<dim> &state, const double share,
-                                    Configuration<dim> &configuration)
-  {
-    const Configuration<dim> from = configuration;
-    double factor                 = 0.; // its change
-    if (acting.pattern && dof_map->owned().is_element(dof_map->factor()))
-      factor = correction(dof_map->factor());
-    if (acting.pattern)
-      factor = dealii::Utilities::MPI::sum(factor, communicator);
-    const auto go = [&](const double eta)
-    {
-      configuration        = from;
-      configuration.factor = from.factor + eta * factor;
-      configuration.released
-          += eta * share * (advance.released - from.released);
-      const double load_time
-          = share * eta == 1.
-                ? advance.load_time
-                : from.load_time
-                      + eta * share * (advance.load_time - from.load_time);
-      dof_map->move(correction, eta, load_time, configuration);
-    };
-    last_share = 1.;
-    if (!parameters.line_search || (iteration == 0 && !is_predicted))
-      return go(1.);
-
-    // Along a correction the relative unbalanced force falls with the slope -1,
-    // until a joint changes its state: halve, or go to the minimum of the
-    // parabola.
-    const double base = balance.unbalanced;
-    double best = std::numeric_limits<double>::infinity(), best_share = 1.;
-    for (double eta = 1.; eta >= least_search_share;)
-    {
-      go(eta);
-      time_shares.measure(
-          assembly_phase, [&]()
-          { equilibrium->find_forces(state, configuration, broken, trial); });
-      if (trial.unbalanced < best)
-      {
-        best       = trial.unbalanced;
-        best_share = eta;
-      }
-      if (trial.unbalanced <= (1. - least_gain * eta) * base)
-        break;
-      const double parabola
-          = 0.5 * base * eta * eta / (trial.unbalanced - base + base * eta);
-      eta = std::clamp(parabola, 0.1 * eta, 0.5 * eta);
-    }
-    last_share = best_share;
-    go(best_share);
-  }
-
-  template <int dim>
-  typename ImplicitSolver<dim>::Outcome
-  ImplicitSolver<dim>::iterate(const State<dim> &state,
-                               const StepTarget &target,
-                               Configuration<dim> &configuration)
-  {
-    std::vector<double> ratios;
-    for (unsigned int i = 0;; ++i)
-    {
-      advance.load_time = target.load_time;
-      advance.released  = target.released;
-      advance.on_path   = target.path > 0.;
-      if (target.path > 0.) // the load time is an unknown
-        advance.load_time
-            = configuration.load_time + target.load_time - state.load_time;
-      time_shares.measure(assembly_phase,
-                          [&]()
-                          {
-                            equilibrium->linearise(state, configuration, broken,
-                                                   advance, balance, slopes);
-                          });
-      if (iteration == 0 && !is_predicted)
-        start = balance;
-      const double ratio = balance.ratio();
-      done.iterations.push_back({ current_step, attempt, iteration,
-                                  configuration.load_time, ratio, last_share,
-                                  double(linear_solver->n_iterations()) });
-      if (!std::isfinite(ratio))
-      {
-        acting.check_finite(stage, state, advance.load_time);
-        return Outcome::failed;
-      }
-      ratios.push_back(ratio);
-      if (iteration == 0)
-      {
-        prediction_error = error_of_prediction(state, target);
-        if (own_steps.is_too_long(state, target, prediction_error))
-          return Outcome::failed;
-      }
-      const bool there = target.path > 0.
-                             ? std::abs(balance.path - target.path)
-                                   <= path_tolerance * target.path
-                             : configuration.load_time == target.load_time
-                                   && configuration.released == target.released;
-      // Points of joints that close and open in turn with every iteration must
-      // not hold up a trial that asks whether the model keeps moving.
-      const double given
-          = all.water && all.water->acts()
-                    && all.water->parameters().flow == FlowKind::transient
-                ? std::min(parameters.force_ratio, flow_force_ratio)
-                : parameters.force_ratio;
-      const double tolerance
-          = stage.safety && state.template get<ImplicitState>().jumps
-                    && target.path == 0.
-                ? std::max(given,
-                           drag_share * balance.dragged / balance.applied)
-                : given;
-      const bool is_controlled
-          = !acting.pattern
-            || std::abs(balance.lacking)
-                   <= control_tolerance
-                          * std::max(std::abs(acting.pattern->target(
-                                                  configuration.load_time)
-                                              - acting.pattern->target(
-                                                  state.load_time)),
-                                     1e-9 * model.nodes().table().diagonal());
-      if (iteration > 0 && there && is_controlled && ratio <= tolerance)
-        return Outcome::converged;
-      if (i >= parameters.maximum_iterations
-          || (i >= 10 && ratio > 0.5 * ratios[i - 6]))
-        return Outcome::failed;
-
-      double share = 0.;
-      if (!find_correction(target, configuration,
-                           iteration == 0 && !is_predicted, share))
-        return Outcome::failed;
-      correct(state, share, configuration);
-      ++iteration;
-      ++done.n_iterations;
-    }
-  }
-
-  template <int dim>
-  void ImplicitSolver<dim>::try_iteration(const State<dim> &state)
-  {
-    const Configuration<dim> configuration
-        = configuration_of(dof_map->bodies(), state);
-    const StepTarget target = own_steps.target(state);
-    double share            = 0.;
-    advance.load_time       = target.load_time;
-    advance.released        = target.released;
-    advance.on_path         = target.path > 0.;
-    equilibrium->linearise(state, configuration, broken, advance, balance,
-                           slopes);
-    find_correction(target, configuration, true, share);
-  }
-
-  template <int dim>
-  bool ImplicitSolver<dim>::break_joints()
-  {
-    double largest = 0.;
-    for (unsigned int p = 0; p < model.joints().n_points(); ++p)
-      if (!broken[p])
-        largest = std::max(
-            largest, excess(model.joints(), p,
-                            balance.state.template get<JointHistoryOf<dim>>()));
-    largest = dealii::Utilities::MPI::max(largest, communicator);
-    if (largest <= 1e-9)
-      return false;
-    // The most overstressed point, and those that would follow at once.
-    for (unsigned int p = 0; p < model.joints().n_points(); ++p)
-      if (!broken[p]
-          && excess(model.joints(), p,
-                    balance.state.template get<JointHistoryOf<dim>>())
-                 >= 0.7 * largest)
-        broken[p] = 1;
-    some_broke = true;
-    return true;
-  }
-
-  template <int dim>
-  typename ImplicitSolver<dim>::Outcome
-  ImplicitSolver<dim>::solve(const State<dim> &state, const StepTarget &target,
-                             Configuration<dim> &configuration)
-  {
-    configuration = configuration_of(dof_map->bodies(), state);
-    broken.assign(model.joints().n_points(), 0);
-    some_broke = false;
-    iteration  = 0;
-    last_share = 1.;
-    if constexpr (dim == 2)
-      if (all.water && all.water->acts())
-        all.water->begin_step(state);
-    for (NodalLoad<dim> &load : all.nodal)
-      load.find_crack(state, target.released);
-    is_predicted          = predict(state, target, configuration);
-    unsigned int n_cracks = 0;
-    // Brittle joints break one after the other, each at an equilibrium, and
-    // water finds its pressures for the openings of one.
-    JointFlow::Followed followed;
-    unsigned int n_without_new_water = 0;
-    do
-    {
-      do
-        if (iterate(state, target, configuration) == Outcome::failed)
-          return Outcome::failed;
-      while (break_joints());
-      if (n_without_new_water == 0)
-        n_without_new_water = iteration;
-      followed = JointFlow::Followed::balanced;
-      if constexpr (dim == 2)
-        if (all.water && all.water->acts())
-          followed
-              = all.water->follow(configuration.nodes.data(),
-                                  { configuration.load_time,
-                                    stage_start + configuration.load_time });
-      for (NodalLoad<dim> &load : all.nodal)
-        if (names_load(stage, load.name()) && !load.follow_crack(balance.state)
-            && followed == JointFlow::Followed::balanced)
-          followed = ++n_cracks > most_cracks ? JointFlow::Followed::lost
-                                              : JointFlow::Followed::changed;
-    } while (followed == JointFlow::Followed::changed);
-    // The next step is as long as joints and blocks let it be.
-    iteration = n_without_new_water;
-    return followed == JointFlow::Followed::lost ? Outcome::failed
-                                                 : Outcome::converged;
-  }
-
-  template <int dim>
   void ImplicitSolver<dim>::step(State<dim> &state)
   {
-    current_step = state.step;
+    const Balance<dim> &balance = newton->current_balance();
+    attempt                     = { state.step, 0 };
     if (!state.template get<ImplicitState>().jumps)
       last_equilibrium = state;
     Configuration<dim> configuration;
     double refused = std::numeric_limits<double>::infinity();
     double drag    = refused; // by the applied forces
-    for (attempt = 0;; ++attempt)
+    for (;; ++attempt.number)
     {
       const StepTarget target = own_steps.target(state);
       equilibrium->set_drag(
           state.template get<ImplicitState>().jumps
               ? 1. / state.template get<ImplicitState>().drag_step
               : 0.);
-      Outcome outcome = solve(state, target, configuration);
-      if (outcome == Outcome::converged && target.path > 0.
+      const bool converged
+          = newton->solve(state, target, attempt, configuration);
+      const double error = newton->prediction_error();
+      if (converged && target.path > 0.
           && configuration.load_time > own_steps.duration())
       {
         // The end of the stage is near: load control to reach it exactly.
@@ -667,7 +316,7 @@ namespace quoin
           = state.template get<ImplicitState>().jumps
                 ? own_steps.most_jump_path(state.template get<ImplicitState>())
                 : collapse_share * model.nodes().table().diagonal();
-      if (outcome == Outcome::converged)
+      if (converged)
       {
         const bool jumps  = state.template get<ImplicitState>().jumps;
         const double path = std::abs(balance.path);
@@ -686,9 +335,9 @@ namespace quoin
           break;
         refused = path;
       }
-      if (own_steps.is_too_long(state, target, prediction_error))
+      if (own_steps.is_too_long(state, target, error))
       {
-        own_steps.shorten(target, prediction_error, state);
+        own_steps.shorten(target, error, state);
         continue;
       }
       ++done.n_cuts;
@@ -696,19 +345,21 @@ namespace quoin
         give_up(state);
     }
     const State<dim> before = state;
-    remember_motion(configuration, state);
+    newton->remember_motion(configuration, state);
     commit(configuration, state);
     if (state.template get<ImplicitState>().jumps)
       go_on_jumping(before, state);
     else
-      own_steps.adapt(before, iteration, prediction_error, balance.path, state);
+      own_steps.adapt(before, newton->n_iterations(),
+                      newton->prediction_error(), balance.path, state);
   }
 
   template <int dim>
   void ImplicitSolver<dim>::go_on_jumping(const State<dim> &before,
                                           State<dim> &state)
   {
-    ImplicitState &now = state.template get<ImplicitState>();
+    const Balance<dim> &balance = newton->current_balance();
+    ImplicitState &now          = state.template get<ImplicitState>();
     now.jump_loss += state.energy.damping - before.energy.damping;
     ++now.n_drag;
     now.drag_time += now.drag_step;
@@ -719,7 +370,7 @@ namespace quoin
             && largest_move(last_equilibrium.nodes, state.nodes)
                    > collapse_share * model.nodes().table().diagonal()))
       give_up(state);
-    own_steps.adapt_jump(iteration, balance.path, now);
+    own_steps.adapt_jump(newton->n_iterations(), balance.path, now);
     // Trials without drag cost as much as steps: at first, then at intervals.
     if (state.load_time < now.jump_time
         || balance.dragged > jump_ends * balance.applied
@@ -729,7 +380,7 @@ namespace quoin
     equilibrium->set_drag(0.);
     Configuration<dim> configuration;
     const StepTarget target{ now.jump_time, now.jump_released, 0. };
-    if (solve(state, target, configuration) == Outcome::failed)
+    if (!newton->solve(state, target, attempt, configuration))
       return;
     // An equilibrium far ahead is none that the model comes to; whether it
     // would is what a search for the factor of safety asks: it has to go there.
@@ -750,7 +401,8 @@ namespace quoin
   bool ImplicitSolver<dim>::comes_to_rest(const State<dim> &before,
                                           ImplicitState &now) const
   {
-    const double drag = balance.dragged / balance.applied;
+    const Balance<dim> &balance = newton->current_balance();
+    const double drag           = balance.dragged / balance.applied;
     if (now.n_drag == 1 || before.load_time < now.jump_time)
     {
       now.watched_from = now.n_drag;
@@ -796,10 +448,11 @@ namespace quoin
   void ImplicitSolver<dim>::commit(const Configuration<dim> &configuration,
                                    State<dim> &state)
   {
-    EnergyAccounts done = balance.state.energy;
+    const Balance<dim> &balance = newton->current_balance();
+    EnergyAccounts done         = balance.state.energy;
     book_work(model, *dof_map,
               all.far.elastostatic_acts ? all.far.elastostatic : nullptr, state,
-              start, configuration, balance, done);
+              newton->start_balance(), configuration, balance, done);
     state.energy += done;
     const double went = std::abs(configuration.load_time - state.load_time);
 
@@ -841,9 +494,8 @@ namespace quoin
   template <int dim>
   bool ImplicitSolver<dim>::has_balance() const
   {
-    return dealii::Utilities::MPI::max(unsigned(!balance.force.empty()),
-                                       communicator)
-           > 0;
+    const bool is_here = newton && !newton->current_balance().force.empty();
+    return dealii::Utilities::MPI::max(unsigned(is_here), communicator) > 0;
   }
 
   template <int dim>
@@ -853,8 +505,8 @@ namespace quoin
       return {};
     for (const MotionConstraint<dim> *constraint : acting.constraints)
       if (constraint->name() == load)
-        return reaction(model, *dof_map, all.far.elastostatic, balance,
-                        *constraint);
+        return reaction(model, *dof_map, all.far.elastostatic,
+                        newton->current_balance(), *constraint);
     return {};
   }
 
@@ -862,6 +514,7 @@ namespace quoin
   void ImplicitSolver<dim>::fail(const State<dim> &state, const double tried,
                                  const bool jumped) const
   {
+    const Balance<dim> &balance = newton->current_balance();
     const std::string why
         = balance.failed_beam.empty()
               ? "Forces are out of balance most "

@@ -458,6 +458,18 @@ namespace quoin
   }
 
   template <int dim>
+  template <typename Loop>
+  auto NodalLoad<dim>::by_nodes(const Loop &loop) const
+  {
+    // Those of gravity ascend.
+    if (is_gravity && !nodes.empty()
+        && nodes.back() - nodes.front() + 1 == nodes.size())
+      return loop([first = std::size_t(nodes.front())](const std::size_t i)
+                  { return first + i; });
+    return loop([this](const std::size_t i) { return nodes[i]; });
+  }
+
+  template <int dim>
   void NodalLoad<dim>::add_loads(const TimePoint &time,
                                  dealii::Tensor<1, dim> *force) const
   {
@@ -477,9 +489,13 @@ namespace quoin
       return;
     }
     const auto values = amplitude(time);
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        force[nodes[i]][d] += values[d] * weights[i];
+    by_nodes(
+        [&](const auto &node)
+        {
+          for (std::size_t i = 0; i < weights.size(); ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              force[node(i)][d] += values[d] * weights[i];
+        });
     for (unsigned int i = 0; i < inward.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         force[nodes[i]][d] += values[3] * inward[i][d];
@@ -499,20 +515,26 @@ namespace quoin
           power += forces[i][d] * velocity[nodes[i]][d];
       return half_cosine(time.stage, ramp_duration) * power;
     }
-    // Several sums, none of which waits for the others.
-    constexpr unsigned int n_sums = 4;
-    double sums[n_sums][dim]{}, inflow = 0.;
-    unsigned int done = 0;
-    for (; done + n_sums <= nodes.size(); done += n_sums)
-      for (unsigned int s = 0; s < n_sums; ++s)
-        for (unsigned int d = 0; d < dim; ++d)
-          sums[s][d] += weights[done + s] * velocity[nodes[done + s]][d];
-    for (; done < nodes.size(); ++done)
-      for (unsigned int d = 0; d < dim; ++d)
-        sums[0][d] += weights[done] * velocity[nodes[done]][d];
-    double sum[dim];
-    for (unsigned int d = 0; d < dim; ++d)
-      sum[d] = (sums[0][d] + sums[1][d]) + (sums[2][d] + sums[3][d]);
+    const std::array<double, dim> sum = by_nodes(
+        [&](const auto &node)
+        {
+          // Several sums, none of which waits for the others.
+          constexpr std::size_t n_sums = 4;
+          double sums[n_sums][dim]{};
+          std::size_t i = 0;
+          for (; i + n_sums <= weights.size(); i += n_sums)
+            for (std::size_t s = 0; s < n_sums; ++s)
+              for (unsigned int d = 0; d < dim; ++d)
+                sums[s][d] += weights[i + s] * velocity[node(i + s)][d];
+          for (; i < weights.size(); ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              sums[0][d] += weights[i] * velocity[node(i)][d];
+          std::array<double, dim> all;
+          for (unsigned int d = 0; d < dim; ++d)
+            all[d] = (sums[0][d] + sums[1][d]) + (sums[2][d] + sums[3][d]);
+          return all;
+        });
+    double inflow = 0.;
     for (unsigned int i = 0; i < inward.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         inflow += inward[i][d] * velocity[nodes[i]][d];

@@ -63,15 +63,18 @@ namespace quoin
     static QUOIN_INLINE void store_bytes(std::uint8_t *to, const Bits &value,
                                          const Bits &mask)
     {
-      const Bits all = mask ? value : load_bytes(to);
+      store_bytes(to, mask ? value : load_bytes(to));
+    }
+    static QUOIN_INLINE void store_bytes(std::uint8_t *to, const Bits &value)
+    {
       Bytes bytes;
 #ifdef __AVX512F__
       if constexpr (lanes == 8)
         bytes = (Bytes)_mm_cvtsi128_si64(
-            _mm512_maskz_cvtepi64_epi8(0xff, (__m512i)all));
+            _mm512_maskz_cvtepi64_epi8(0xff, (__m512i)value));
       else
 #endif
-        bytes = __builtin_convertvector(all, Bytes);
+        bytes = __builtin_convertvector(value, Bytes);
       std::memcpy(to, &bytes, sizeof(bytes));
     }
 
@@ -120,6 +123,19 @@ namespace quoin
                      __builtin_shufflevector(mask, mask, 4, 5, 6, 7))
                      << 4;
 #endif
+      }
+    }
+    /** The mask of the lanes whose bit is set, the inverse of set_lanes(). */
+    static QUOIN_INLINE Bits mask_of(const unsigned int set)
+    {
+      if constexpr (lanes == 1)
+        return set != 0;
+      else
+      {
+        Bits bit{ 1, 2, 4, 8 };
+        if constexpr (lanes == 8)
+          bit = Bits{ 1, 2, 4, 8, 16, 32, 64, 128 };
+        return ((Bits{} + set) & bit) != 0;
       }
     }
     static QUOIN_INLINE bool any(const Bits &mask)

@@ -9,9 +9,9 @@
 #include <quoin/implicit/dof_map.h>
 #include <quoin/implicit/equilibrium.h>
 #include <quoin/implicit/implicit_parameters.h>
-#include <quoin/implicit/linear_solver.h>
+#include <quoin/implicit/implicit_record.h>
 #include <quoin/implicit/implicit_steps.h>
-#include <quoin/implicit/motion_prediction.h>
+#include <quoin/implicit/newton_solver.h>
 
 #include <memory>
 #include <string>
@@ -20,38 +20,9 @@
 
 namespace quoin
 {
-  /** One iteration of a step, for convergence.csv. */
-  struct IterationReport
-  {
-    std::uint64_t step;
-    unsigned int attempt;    /**< 0, increased by one with each cut */
-    unsigned int iteration;  /**< 0: before the first correction */
-    double load_time;        /**< [s] */
-    double unbalanced_ratio; /**< [-] */
-    double line_search;      /**< applied share of the correction [-] */
-    double linear_iterations;
-  };
-
-  /** A jump from one equilibrium to another at constant loads. */
-  struct JumpReport
-  {
-    double load_time; /**< [s] */
-    unsigned int n_steps;
-    double loss; /**< energy dissipated by drag [J] */
-  };
-
-  /** Iterations and jumps of an ImplicitSolver. */
-  struct ImplicitRecord
-  {
-    std::vector<IterationReport> iterations; /**< iterations not yet reported */
-    std::vector<JumpReport> jumps;           /**< ended, not yet reported */
-    std::uint64_t n_iterations = 0, n_cuts = 0;
-  };
-
   /**
-   * Static equilibrium: the same blocks, joints and loads without inertia, by
-   * Newton's method with consistent tangents and line search
-   * (@cite Crisfield1991), stage by stage.
+   * Static equilibrium: the same blocks, joints and loads without inertia,
+   * stage by stage and step by step, each by a NewtonSolver.
    *
    * At the start of a stage the unbalanced forces, of loads that begin or end
    * or of removed supports, are released step by step at constant time; then
@@ -118,7 +89,10 @@ namespace quoin
      * Computes the matrix, its factors and the first correction of the next
      * step, to measure their cost, and discards them.
      */
-    void try_iteration(const State<dim> &state);
+    void try_iteration(const State<dim> &state)
+    {
+      newton->try_iteration(state);
+    }
     /** Does nothing: in equilibrium internal variables are up to date. */
     void update_histories(State<dim> &) override
     {
@@ -141,7 +115,7 @@ namespace quoin
     /** Whether the linear solver of the stage is the direct one. */
     bool is_direct() const
     {
-      return linear_solver->is_direct();
+      return newton->is_direct();
     }
 
   private:
@@ -151,12 +125,6 @@ namespace quoin
     using Solver<dim>::model;
     using Solver<dim>::stage;
     using Solver<dim>::time_shares;
-
-    enum class Outcome
-    {
-      converged,
-      failed
-    };
 
     /** Whether forces have been found on any rank, one of which may have no
         node. Collective. */
@@ -169,31 +137,6 @@ namespace quoin
     void hold_absent_blocks(const State<dim> &state);
     void hold_what_is_out_of_balance(const StageParameters *previous,
                                      State<dim> &state);
-    Outcome iterate(const State<dim> &state, const StepTarget &target,
-                    Configuration<dim> &configuration);
-    Outcome solve(const State<dim> &state, const StepTarget &target,
-                  Configuration<dim> &configuration);
-    /** Moves @p configuration on as in the last load step or step of a jump,
-        and finds the balance at its start; false: there is nothing to predict
-        by, or it is no better. */
-    bool predict(const State<dim> &state, const StepTarget &target,
-                 Configuration<dim> &configuration);
-    /** Keeps the motion from @p state to @p configuration for predict(), if
-        the next step may go on like that. */
-    void remember_motion(const Configuration<dim> &configuration,
-                         State<dim> &state) const;
-    /** By how much of the applied forces the prediction of a load step to
-        @p target is out of balance, or its reactions are others than expected
-        [-]; 0: it is not predicted. Collective. */
-    double error_of_prediction(const State<dim> &state,
-                               const StepTarget &target) const;
-    /** Finds a correction and its share of the advance; false: none. */
-    bool find_correction(const StepTarget &target,
-                         const Configuration<dim> &configuration, bool is_first,
-                         double &share);
-    void correct(const State<dim> &state, double share,
-                 Configuration<dim> &configuration);
-    bool break_joints();
     void go_on_jumping(const State<dim> &before, State<dim> &state);
     /** Whether the drag of a jump falls, as far as it has been watched. */
     bool comes_to_rest(const State<dim> &before, ImplicitState &now) const;
@@ -216,28 +159,11 @@ namespace quoin
     std::vector<bool> held_blocks;
     std::unique_ptr<DofMap<dim>> dof_map;
     std::unique_ptr<Equilibrium<dim>> equilibrium;
-    std::unique_ptr<LinearSolver<dim>> linear_solver;
-    std::unique_ptr<MotionPrediction<dim>> prediction;
+    std::unique_ptr<NewtonSolver<dim>> newton;
 
     State<dim> last_equilibrium; /**< state before the current step or jump */
-    Balance<dim> start;          /**< balance at the last equilibrium */
-    Balance<dim> balance;        /**< balance at the current configuration */
-    Balance<dim> trial;          /**< balance of a trial of the line search */
-    Advance advance;
-    std::vector<std::uint8_t> broken; /**< joint points, in this step */
-    bool some_broke = false;          /**< of any rank */
-    Slopes slopes;
-    DofVector residual, correction, advanced;
-
-    unsigned int attempt = 0, iteration = 0;
-    bool is_predicted = false; /**< whether iterations began at a prediction */
-    /** error_of_prediction() of the load step; 0: it was not predicted [-]. */
-    double prediction_error = 0.;
-    double last_share       = 1.; /**< last fraction of the line search */
+    typename NewtonSolver<dim>::Attempt attempt;
     ImplicitRecord done;
-    std::uint64_t current_step        = 0;
-    const unsigned int assembly_phase = time_shares.phase("assembly"),
-                       solver_phase   = time_shares.phase("linear solver");
   };
 } // namespace quoin
 

@@ -122,6 +122,11 @@ namespace quoin
     }
 
   private:
+    /** Calls @p loop with a function from an index to its node, which is a sum
+        where the nodes follow on each other, so that compilers find vectors. */
+    template <typename Loop>
+    auto by_nodes(const Loop &loop) const;
+
     /** Weights and inward areas of a traction with a distribution. */
     void find_distributed_areas(const LoadParameters &parameters,
                                 const NodeMap<dim> &node_map,
