@@ -10,6 +10,7 @@
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/block_problem/block_problem.h>
 #include <quoin/block_problem/block_costs.h>
+#include <quoin/loading/constraint_checks.h>
 #include <quoin/structures/beam_fields.h>
 #include <quoin/advice/model_summary.h>
 #include <quoin/operators/archive.h>
@@ -184,6 +185,10 @@ namespace quoin
     {
       const StageParameters &stage = parameters.stages[i];
       system.begin_stage(i, begun, time_is_known);
+      if (const std::string lost = lost_motion_text(
+              *system.model, system.solver->stage_loads().constraints);
+          !lost.empty())
+        run.log.warning("stage ", stage.name, ": ", lost);
       if (run.options.check)
         run.log.message(stage.text(parameters.is_implicit));
       if (const ImplicitSolver<dim> *solver = system.implicit_solver)

@@ -116,7 +116,7 @@ namespace quoin
     follow_joint_motion();
     warn_of_joint_motion();
     warn_of_unstable_beams();
-    warn_of_overstressed_beams();
+    warn_of_beam_forces();
     warn_of_lost_bond();
     if (const std::string what = context.loads[index].warning(); !what.empty())
       log.warning("stage ", stage.name, ": ", what);
@@ -343,7 +343,7 @@ namespace quoin
   }
 
   template <int dim>
-  void BlockStage<dim>::warn_of_overstressed_beams() const
+  void BlockStage<dim>::warn_of_beam_forces() const
   {
     if constexpr (dim == 2)
       if (const Beams *beams = system.solver->loads().beams.get())
@@ -352,10 +352,11 @@ namespace quoin
           const Beam &beam = beams->all()[b];
           if (!state.template get<BeamState>().placed[b])
             continue;
-          if (const std::string what
-              = overstress_text(beam.line, beam_fields(beam, state));
-              !what.empty())
-            log.warning("stage ", stage.name, ": ", what);
+          const BeamFields fields = beam_fields(beam, state);
+          for (const std::string &what : { overstress_text(beam.line, fields),
+                                           chord_text(beam.line, fields) })
+            if (!what.empty())
+              log.warning("stage ", stage.name, ": ", what);
         }
   }
 

@@ -24,6 +24,9 @@ namespace quoin
         the motion along bolts that mobilises these, which may be at 70 degrees
         to the joint that slips; implicit trials may go beyond the limit. */
     constexpr double failure_by_slip = 2., failure_by_bolts = 6.;
+    /** Share of the model's diagonal that is enough for bolts: soft ones
+       without a strength would be mobilised where geometry has long changed. */
+    constexpr double most_for_bolts = 0.02;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
     /** Share of the failure displacement at which a trial of the implicit
@@ -380,20 +383,22 @@ namespace quoin
         force += forces[i].norm();
       energy = dealii::Utilities::MPI::sum(energy, context.run.communicator);
       force  = dealii::Utilities::MPI::sum(force, context.run.communicator);
-      double least = 0.;
+      const double diagonal = system.nodes->table().diagonal();
+      double least          = 0.;
       for (const JointSetParameters &set : strong.joints)
         least = std::max(least, failure_by_slip * slip_of_peak(set.law));
       if constexpr (dim == 2)
         if (!model.reinforcement().empty())
-          least = std::max(
-              least,
-              failure_by_bolts
-                  / (system.implicit_solver ? JumpWatch::far_beyond : 1.)
-                  * mobilising_motion(model.reinforcement(), base, force));
+        {
+          const double wanted
+              = failure_by_bolts
+                / (system.implicit_solver ? JumpWatch::far_beyond : 1.)
+                * mobilising_motion(model.reinforcement(), base, force);
+          least = std::max(least, std::min(wanted, most_for_bolts * diagonal));
+        }
       return std::max(least, force > 0. && energy > 0.
                                  ? failure_by_loading * 2. * energy / force
-                                 : failure_by_diagonal
-                                       * system.nodes->table().diagonal());
+                                 : failure_by_diagonal * diagonal);
     }
 
     template <int dim>

@@ -21,6 +21,10 @@ namespace quoin
 {
   namespace
   {
+    /** How much longer forces are released where materials yield: the overshoot
+        of the stresses, which falls with the square of the duration, stays as
+        plastic strain. */
+    constexpr double yielding_release = 5.;
     /** Critical time steps in which forces may change, see quiet_time(). */
     constexpr double least_quiet_steps = 2000.;
 
@@ -221,6 +225,10 @@ namespace quoin
   template <int dim>
   double ExplicitSolver<dim>::release_duration(const State<dim> &state) const
   {
+    const bool yields
+        = dealii::Utilities::MPI::max(
+              unsigned(model.blocks().cell_data().is_plastic()), communicator)
+          > 0;
     const auto &held = state.template get<ConstructionState<dim>>().held;
     if (std::none_of(held.begin(), held.end(),
                      [](const HeldForces<dim> &item)
@@ -234,11 +242,11 @@ namespace quoin
     const double passage = passage_time();
     if (passage == 0.)
       throw InputError("section 'Stages/" + stage.name
-                       + "': 'Release duration = automatic' is twice the time "
-                         "of a shear wave along the model, but all blocks are "
-                         "rigid. Give a time in which forces may be released "
-                         "without shaking the blocks.");
-    return passage;
+                       + "': 'Release duration = automatic' follows from the "
+                         "time of a shear wave along the model, but all blocks "
+                         "are rigid. Give a time in which forces may be "
+                         "released without shaking the blocks.");
+    return yields ? yielding_release * passage : passage;
   }
 
   template <int dim>

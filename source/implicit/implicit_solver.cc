@@ -41,6 +41,9 @@ namespace quoin
         that limits it [-]. */
     constexpr double at_once_share = 0.9;
 
+    /** Net force by the sum of all sizes from which it is no rounding. */
+    constexpr double least_net_force = 1e-3;
+
     /** Duration of a static stage with constant loads [s]. */
     constexpr double resting_duration = 1.;
 
@@ -237,6 +240,56 @@ namespace quoin
   }
 
   template <int dim>
+  void ImplicitSolver<dim>::refuse_net_force(const State<dim> &state)
+  {
+    const auto &constraints = acting.constraints;
+    const auto holds        = [&](const unsigned int d)
+    {
+      return std::any_of(constraints.begin(), constraints.end(),
+                         [d](const MotionConstraint<dim> *each)
+                         {
+                           return each->traits().is_rigid_body()
+                                  || (each->traits().kind
+                                          == MotionKind::prescribed
+                                      && each->traits().holds[d]);
+                         });
+    };
+    if (!all.far.elastostatic_acts || all.beams || acting.pattern
+        || (holds(0) && holds(1)))
+      return;
+    // As the stage would end if nothing moved.
+    Configuration<dim> configuration
+        = configuration_of(dof_map->bodies(), state);
+    configuration.load_time = own_steps.duration();
+    configuration.released  = 1.;
+    Balance<dim> balance;
+    equilibrium->find_forces(
+        state, configuration,
+        std::vector<std::uint8_t>(model.joints().n_points(), 0), balance);
+    std::vector<double> sums(dim + 1, 0.);
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        sums[d] += balance.force[i][d];
+      sums[dim] += balance.force[i].norm();
+    }
+    dealii::Utilities::MPI::sum(sums, communicator, sums);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!holds(d) && std::abs(sums[d]) > least_net_force * sums[dim]
+          && std::abs(sums[d]) > 10. * parameters.force_ratio * balance.applied)
+        throw InputError(
+            "section 'Stages/" + stage.name
+            + "': what acts on the blocks "
+              "in this stage has the net force "
+            + number_text(sums[d]) + " N along " + (d == 0 ? "x" : "y")
+            + ", which nothing takes: in the plane the static stiffness of the "
+              "rock beyond, 'boundary elements', resists no translation, so "
+              "that there is no equilibrium. An excavation under gravity has "
+              "the weight of what it takes away. Hold the base of the model by "
+              "a 'prescribed motion' in this stage, or balance the force.");
+  }
+
+  template <int dim>
   void ImplicitSolver<dim>::hold_what_is_out_of_balance(
       const StageParameters *previous, State<dim> &state)
   {
@@ -261,6 +314,8 @@ namespace quoin
             std::vector<std::uint8_t>(model.joints().n_points(), 0), carried);
         all.far.elastostatic->hold(carried.force.data(), state);
       }
+    if constexpr (dim == 2)
+      refuse_net_force(state);
     newton->find_forces(state);
     const Balance<dim> &balance = newton->current_balance();
     if (balance.ratio() <= parameters.force_ratio)

@@ -8,6 +8,7 @@
 #include <quoin/model/block_placement.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace quoin
@@ -108,6 +109,50 @@ namespace quoin
       }
   }
 
+  template <int dim>
+  std::string
+  lost_motion_text(const Model<dim> &model,
+                   const std::vector<MotionConstraint<dim> *> &constraints)
+  {
+    const std::array<std::string, 3> names
+        = { "Horizontal", dim == 2 ? "Vertical" : "Lateral", "Vertical" };
+    for (const MotionConstraint<dim> *platen : constraints)
+      for (const MotionConstraint<dim> *motion : constraints)
+      {
+        if (!platen->traits().is_rigid_body()
+            || motion->traits().kind != MotionKind::prescribed)
+          continue;
+        std::vector<unsigned int> shared;
+        std::set_intersection(platen->nodes().begin(), platen->nodes().end(),
+                              motion->nodes().begin(), motion->nodes().end(),
+                              std::back_inserter(shared));
+        dealii::Point<dim> p;
+        if (!first_point(model.nodes(),
+                         shared.empty() ? NodeMap<dim>::none : shared.front(),
+                         p))
+          continue;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (motion->traits().holds[d] && !platen->traits().holds[d])
+            return "the platen '" + platen->name() + "' moves the node at "
+                   + point_text(p) + " m and others for which '"
+                   + motion->name() + "' prescribes '" + names[d]
+                   + "' as well, and its own '" + names[d]
+                   + "' is not prescribed: what '" + motion->name()
+                   + "' says there is lost, and it supports nothing there. "
+                     "Prescribe '"
+                   + names[d]
+                   + "' of the platen too, e.g. 'velocity 0', or let one of "
+                     "them leave these nodes to the other.";
+      }
+    return "";
+  }
+
+  template std::string
+  lost_motion_text(const Model<2> &,
+                   const std::vector<MotionConstraint<2> *> &);
+  template std::string
+  lost_motion_text(const Model<3> &,
+                   const std::vector<MotionConstraint<3> *> &);
   template void refuse_absent_nodes(const Model<2> &,
                                     const std::vector<MotionConstraint<2> *> &,
                                     const StageParameters &, const State<2> &);

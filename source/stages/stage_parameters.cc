@@ -51,7 +51,8 @@ namespace quoin
           "Load time over which the forces of excavated blocks are released; "
           "automatic: the duration of the stage or, in an explicit stage with "
           "'End = static ratio', twice the travel time of a shear wave along "
-          "the model's diagonal [s]");
+          "the model's diagonal, and five times that where a material yields "
+          "[s]");
       entries.choice(
           "Release ramp", stage.releases_linearly,
           { { "smooth", false }, { "linear", true } },

@@ -5,6 +5,8 @@
 #include <quoin/base/point_text.h>
 #include <quoin/structures/beam_fields.h>
 
+#include <deal.II/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -105,6 +107,85 @@ namespace quoin
         " Pa: the section bears no moment there, and nothing limits its axial "
         "force, so that the beam bears more than it can. Take a thicker or "
         "stronger section, or relax the rock more before it is placed.");
+  }
+
+  namespace
+  {
+    /** Between two corners of a polygon that stands for a smooth curve. */
+    struct Chord
+    {
+      unsigned int from, to; /**< corners, counted along the beam */
+      double sagitta;        /**< of the curve [m] */
+      double bent;           /**< moment by the axial force and that [N m] */
+    };
+
+    /** The chord with nodes within it that bends the beam most. */
+    Chord worst_chord(const BeamLine &line, const BeamFields &fields)
+    {
+      // Corners of a polygon with ten sides or more, all turning alike.
+      constexpr double largest_turn = 0.2 * dealii::numbers::PI;
+      constexpr double most_alike = 1.5, straight = 0.02;
+      const unsigned int n = line.places.size();
+      const auto turn      = [&](const unsigned int i)
+      { return line.at_rest(line.begin + i % n).angle; };
+      double mean = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        mean += std::abs(turn(i)) / n;
+      std::vector<unsigned int> corners;
+      for (unsigned int i = 0; i < n; ++i)
+        if (std::abs(turn(i)) > straight * mean)
+          corners.push_back(i);
+      if (line.is_closed && !corners.empty())
+        corners.push_back(corners.front() + n);
+      Chord worst{};
+      for (unsigned int c = 0; c + 1 < corners.size(); ++c)
+      {
+        const unsigned int from = corners[c], to = corners[c + 1];
+        const double before = turn(from), behind = turn(to);
+        const double ratio = behind / before;
+        if (to == from + 1 || !(ratio < most_alike)
+            || !(most_alike * ratio > 1.)
+            || std::max(std::abs(before), std::abs(behind)) > largest_turn)
+          continue;
+        double axial = 0.;
+        for (unsigned int i = from + 1; i < to; ++i)
+          axial += std::abs(fields.axial[i % n]) / (to - from - 1);
+        const double length = line.places[from].distance(line.places[to % n]);
+        const double sagitta
+            = length * (std::abs(before) + std::abs(behind)) / 16.;
+        // The largest difference of the moments of a parabola whose mean is 0.
+        const double bent = 2. / 3. * axial * sagitta;
+        if (bent > worst.bent)
+          worst = { from, to % n, sagitta, bent };
+      }
+      return worst;
+    }
+  } // namespace
+
+  std::string chord_text(const BeamLine &line, const BeamFields &fields)
+  {
+    /** Share of the largest moment from which chords count [-]. */
+    constexpr double least_share = 0.1;
+    if (!line.given.is_liner())
+      return "";
+    const Chord worst = worst_chord(line, fields);
+    double largest    = 0.;
+    for (const double moment : fields.moment)
+      largest = std::max(largest, std::abs(moment));
+    if (worst.bent <= least_share * largest)
+      return "";
+    return text_of(
+        "the liner '", line.given.name,
+        "' follows the chords of a curve: between ",
+        point_text(line.places[worst.from]), " and ",
+        point_text(line.places[worst.to]), " m its nodes lie up to ",
+        worst.sagitta,
+        " m within the arc, and its axial force bends it there by some ",
+        worst.bent, " N m, ", 100. * worst.bent / largest,
+        " % of its largest moment. These are moments of a polygon, not of the "
+        "curve. Give the outline a corner for each node of the liner, as many "
+        "'Corners' as segments, and not 'Triangles = quadratic', whose nodes "
+        "lie in the middle of straight edges; axial forces are right.");
   }
 
   unsigned int nearest_node(const BeamLine &line, const dealii::Point<2> &point)

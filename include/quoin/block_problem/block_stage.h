@@ -162,7 +162,7 @@ namespace quoin
     /** Warns of beams that would buckle. */
     void warn_of_unstable_beams() const;
     /** Warns of beams whose axial force is beyond their strength. */
-    void warn_of_overstressed_beams() const;
+    void warn_of_beam_forces() const;
     /** Warns if joints lost their bond while loads came on; collective. */
     void warn_of_lost_bond() const;
     /** Records the loads of the row for @p time [s]. */

@@ -135,6 +135,9 @@ namespace quoin
     operators_with(const std::vector<const NodalLoad<dim> *> &loads) const;
     /** Excludes absent rigid blocks from the bodies. */
     void hold_absent_blocks(const State<dim> &state);
+    /** Throws an InputError if what acts in the stage has a net force that
+        nothing but the static far field could take. Collective. */
+    void refuse_net_force(const State<dim> &state);
     void hold_what_is_out_of_balance(const StageParameters *previous,
                                      State<dim> &state);
     void go_on_jumping(const State<dim> &before, State<dim> &state);

@@ -8,6 +8,7 @@
 #include <quoin/model/model.h>
 #include <quoin/stages/stage_parameters.h>
 
+#include <string>
 #include <vector>
 
 namespace quoin
@@ -29,6 +30,14 @@ namespace quoin
   refuse_shared_platens(const Model<dim> &model,
                         const std::vector<MotionConstraint<dim> *> &constraints,
                         const StageParameters &stage);
+
+  /** A sentence about a component of a prescribed motion that is lost, as a
+      platen moves its nodes and leaves the component free or loads it; empty:
+      there is none. Collective. */
+  template <int dim>
+  std::string
+  lost_motion_text(const Model<dim> &model,
+                   const std::vector<MotionConstraint<dim> *> &constraints);
 
   /** The rigid blocks that platens move; refuses one that is held in part or by
       something else. */

@@ -33,6 +33,11 @@ namespace quoin
       'Hinge moment = section' knows: a sentence on it; empty: nowhere. */
   std::string overstress_text(const BeamLine &line, const BeamFields &fields);
 
+  /** Where a liner follows the chords of a polygon in place of a curve, so that
+      its axial force bends it by a tenth of the largest moment or more: a
+      sentence on it; empty: nowhere. */
+  std::string chord_text(const BeamLine &line, const BeamFields &fields);
+
   /** Node of @p line, counted along it, that is nearest to @p point in the
       mesh. */
   unsigned int nearest_node(const BeamLine &line,

@@ -327,3 +327,45 @@ TEST(Beams, AxialForceBeyondTheSection)
   beam.hinge_moment = 100.;
   EXPECT_EQ(text(0.005), "");
 }
+
+// A ring of 72 segments under the axial force -1e6 N, whose corners are at
+// every n-th node. With three segments a chord of a circle of 2.5 m its sagitta
+// is 2.5 (1 - cos(pi/24)) = 0.0214 m.
+TEST(Beams, LinersOnChordsOfACircle)
+{
+  BeamParameters beam = section();
+  beam.boundary       = "wall";
+  const auto text     = [&](const unsigned int segments, const double moment)
+  {
+    const unsigned int n = 72, corners = n / segments;
+    const auto corner = [&](const unsigned int k)
+    {
+      const double angle = 2. * dealii::numbers::PI * k / corners;
+      return dealii::Point<2>(2.5 * std::cos(angle), 2.5 * std::sin(angle));
+    };
+    std::vector<dealii::Point<2>> places;
+    BeamState now;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const double part = double(i % segments) / segments;
+      const auto a = corner(i / segments), b = corner(i / segments + 1);
+      places.push_back(a + part * (b - a));
+      now.nodes.push_back({ places.back(), {} });
+    }
+    BeamLine line(beam, 1., 0, places, true);
+    line.find_rest(now);
+    BeamFields fields;
+    fields.axial.assign(n, -1e6);
+    fields.moment.assign(n, moment);
+    return chord_text(line, fields);
+  };
+  EXPECT_NE(text(3, 2e4).find("up to 0.0213"), std::string::npos)
+      << text(3, 2e4);
+  EXPECT_NE(text(3, 2e4).find("some 1.42"), std::string::npos);
+  EXPECT_NE(text(2, 2e4), "");
+  EXPECT_EQ(text(3, 2e5), "");  // which the chords change by 7 %
+  EXPECT_EQ(text(1, 1e3), "");  // a corner at each node
+  EXPECT_EQ(text(12, 1e3), ""); // a hexagon is meant as one
+  beam.boundary.clear();
+  EXPECT_EQ(text(3, 2e4), "");
+}
