@@ -30,7 +30,8 @@ namespace quoin
                                        const double went,
                                        ImplicitState &now) const
   {
-    now.moved_for = went;
+    now.moved_for    = went;
+    now.moved_factor = to.factor - from.factor;
     now.moved.clear();
     now.held_by.clear();
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
@@ -68,6 +69,7 @@ namespace quoin
           motion(body.first + d) = moved[d];
     }
     motion.compress(dealii::VectorOperation::insert);
+    configuration.factor += share * now.moved_factor;
     dof_map.move(motion, share, load_time, configuration);
   }
 

@@ -68,8 +68,7 @@ namespace quoin
                                   Configuration<dim> &configuration)
   {
     const ImplicitState &now = state.template get<ImplicitState>();
-    if (now.moved_for <= 0. || target.path > 0. || now.released < 1.
-        || acting.pattern)
+    if (now.moved_for <= 0. || target.path > 0. || now.released < 1.)
       return false;
     clock.measure(
         assembly_phase, [&]()
@@ -113,7 +112,7 @@ namespace quoin
                                                 const StepTarget &target) const
   {
     const ImplicitState &now = state.template get<ImplicitState>();
-    if (!is_predicted || now.jumps)
+    if (!is_predicted || now.jumps || acting.pattern)
       return 0.;
     const double share = (target.load_time - state.load_time) / now.moved_for;
     return std::max(balance.ratio(),
