@@ -28,6 +28,9 @@ namespace quoin
 {
   namespace
   {
+    /** Share of the time in energies from which it is worth a hint [-]. */
+    constexpr double large_energy_share = 0.3;
+
     template <int dim>
     std::string step_text(const BlockContext<dim> &context,
                           const StageParameters &stage)
@@ -569,6 +572,10 @@ namespace quoin
                                 ", energy balance error ", 100. * residual,
                                 " % of the energy throughput") };
     words.figures += time_line(summary);
+    if (const double energies = summary["time shares"].value("energies", 0.);
+        energies > large_energy_share && parameters.history_interval == 0.)
+      words.figures += "\nenergies are for rows of histories at each step: an "
+                       "'Interval' in section 'Histories' saves most of it";
     if (system.model->contacts())
       words.figures += text_of(
           "\ncontacts: ", millions("contact updates per second"),
