@@ -30,8 +30,7 @@ namespace quoin
                                        const double went,
                                        ImplicitState &now) const
   {
-    now.moved_for    = went;
-    now.moved_factor = to.factor - from.factor;
+    now.moved_for = went;
     now.moved.clear();
     now.held_by.clear();
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
@@ -69,7 +68,6 @@ namespace quoin
           motion(body.first + d) = moved[d];
     }
     motion.compress(dealii::VectorOperation::insert);
-    configuration.factor += share * now.moved_factor;
     dof_map.move(motion, share, load_time, configuration);
   }
 

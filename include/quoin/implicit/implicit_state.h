@@ -26,8 +26,7 @@ namespace quoin
         [m, rad], and by how much the load time [s] or the pseudo-time [-]
         advanced in it; zero: do not predict by it. */
     std::vector<double> moved, moved_platens, moved_blocks;
-    double moved_for    = 0.;
-    double moved_factor = 0.; /**< change of the factor of a load pattern */
+    double moved_for = 0.;
     /** By how much the forces changed in it that hold owned nodes [N]. */
     std::vector<double> held_by;
     double released  = 1.; /**< released share of them [-] */
@@ -70,11 +69,11 @@ namespace quoin
       visitor.owned_nodes(held_by, dim);
       visitor.same(moved_platens);
       visitor.own(moved_blocks, 3, RigidBlockStates::slice_name);
-      visitor.same(dim, moved_for, moved_factor, released, step, last_step,
-                   follows_path, path_step, path_length, farthest, ahead, jumps,
-                   jump_time, jump_released, jump_rate, drag_step, drag_time,
-                   drag_path, n_drag, watched_from, watched_drag, jump_loss,
-                   after_jump, before_jump);
+      visitor.same(dim, moved_for, released, step, last_step, follows_path,
+                   path_step, path_length, farthest, ahead, jumps, jump_time,
+                   jump_released, jump_rate, drag_step, drag_time, drag_path,
+                   n_drag, watched_from, watched_drag, jump_loss, after_jump,
+                   before_jump);
     }
 
     template <typename Archive>
