@@ -409,7 +409,7 @@ namespace quoin
     for (const unsigned int i : new_contacts)
     {
       contacts.pairs[i].active = 1;
-      contacts.marks[i]        = PairMark::active;
+      contacts.marks[i]        = mark_of_active(contacts.pairs[i]);
       active_pairs.push_back(i);
     }
   }
@@ -515,19 +515,19 @@ namespace quoin
       const PairPack<lanes> edges_of(near, &active[first], n);
       const auto &[pair, ea, eb, a, b] = edges_of;
       ContactPair *pairs               = contacts.pairs.data();
-      // Those of the pack after the next one: active pairs lie anywhere.
-      for (unsigned int j = first + 2 * lanes;
-           j < std::min(n_active, first + 3 * lanes); ++j)
-        for (unsigned int line = 0; line < sizeof(ContactPair); line += 64)
-          __builtin_prefetch(
-              reinterpret_cast<const char *>(pairs + active[j]) + line, 1);
-      PairLanes<lanes> at;
-      L::load(reinterpret_cast<const char *>(&pairs->shift),
-              sizeof(ContactPair), pair, at.shift, at.shift_start);
-      unsigned int was_joint = 0;
-      for (unsigned int l = 0; l < lanes; ++l)
-        was_joint |= (pairs[pair[l]].was_joint != 0 ? 1U : 0U) << l;
-      at.was_joint          = F::mask_of(was_joint);
+      PairLanes<lanes> at{};
+      bool is_shifted = false;
+      for (const std::uint32_t i : pair)
+        is_shifted |= contacts.marks[i] == PairMark::shifted;
+      if (is_shifted)
+      {
+        L::load(reinterpret_cast<const char *>(&pairs->shift),
+                sizeof(ContactPair), pair, at.shift, at.shift_start);
+        unsigned int was_joint = 0;
+        for (unsigned int l = 0; l < lanes; ++l)
+          was_joint |= (pairs[pair[l]].was_joint != 0 ? 1U : 0U) << l;
+        at.was_joint = F::mask_of(was_joint);
+      }
       at.active             = none == none;
       const Bits is_general = at.was_joint == Bits{};
       Value share, depth_limit;

@@ -24,6 +24,12 @@ namespace quoin
     constexpr unsigned int fewest_steps = 4, most_steps = 16;
   } // namespace
 
+  PairMark mark_of_active(const ContactPair &pair)
+  {
+    return pair.was_joint || pair.shift != 0. ? PairMark::shifted
+                                              : PairMark::active;
+  }
+
   void make_marks(ContactState &contacts)
   {
     // Marks beyond the last pair are of none that a step looks at.
@@ -33,7 +39,7 @@ namespace quoin
     for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
     {
       const ContactPair &pair = contacts.pairs[i];
-      contacts.marks[i]       = pair.active     ? PairMark::active
+      contacts.marks[i]       = pair.active     ? mark_of_active(pair)
                                 : pair.was_open ? PairMark::open
                                                 : PairMark::unseen;
     }
@@ -81,8 +87,8 @@ namespace quoin
       const F::Bits mark = F::load_bytes(
           reinterpret_cast<const std::uint8_t *>(&contacts.marks[i]));
       const F::Bits is_early = F::load(&contacts.clear_until[i]) < until;
-      const F::Bits is_idle
-          = mark != static_cast<std::int64_t>(PairMark::active);
+      // The first two bits; see list_pairs().
+      const F::Bits is_idle = (mark & 3) != 2;
       for (unsigned int early = F::set_lanes(is_early & is_idle); early != 0;
            early &= early - 1)
         due.push_back(i + __builtin_ctz(early));
@@ -120,12 +126,13 @@ namespace quoin
                   std::vector<unsigned int> &active,
                   std::vector<unsigned int> &idle)
   {
-    // The mark of an active pair has the second bit and not the first, those of
+    // Marks of active pairs have the second bit and not the first, those of
     // pairs that are passed over have both.
     constexpr std::uint64_t first_bits = 0x0101010101010101;
     static_assert(
         unsigned(PairMark::open) == 1 && unsigned(PairMark::active) == 2
-        && unsigned(PairMark::distant) == 3 && unsigned(PairMark::apart) == 7);
+        && unsigned(PairMark::distant) == 3 && unsigned(PairMark::apart) == 7
+        && unsigned(PairMark::shifted) == 10);
     active.resize(marks.size());
     idle.resize(marks.size());
     unsigned int *next_active = active.data(), *next_idle = idle.data();

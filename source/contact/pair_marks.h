@@ -12,6 +12,9 @@
 
 namespace quoin
 {
+  /** Mark of an active pair: 'active' or 'shifted'. */
+  PairMark mark_of_active(const ContactPair &pair);
+
   /** Marks all pairs by their flags, none of them as distant. */
   void make_marks(ContactState &contacts);
 

@@ -132,10 +132,12 @@ namespace quoin
         return set != 0;
       else
       {
-        Bits bit{ 1, 2, 4, 8 };
+        // By shifts: of masks that come from comparisons GCC 12 combines some
+        // bit by bit.
+        Bits lane{ 0, 1, 2, 3 };
         if constexpr (lanes == 8)
-          bit = Bits{ 1, 2, 4, 8, 16, 32, 64, 128 };
-        return ((Bits{} + set) & bit) != 0;
+          lane = Bits{ 0, 1, 2, 3, 4, 5, 6, 7 };
+        return -(((Bits{} + set) >> lane) & 1);
       }
     }
     static QUOIN_INLINE bool any(const Bits &mask)

@@ -72,7 +72,8 @@ namespace quoin
     open    = 1, /**< not active, and seen apart */
     active  = 2,
     distant = 3, /**< unseen, and will not touch for the time being */
-    apart   = 7  /**< open, and will not touch for the time being */
+    apart   = 7, /**< open, and will not touch for the time being */
+    shifted = 10 /**< active, and was a matched joint or has a shift */
   };
 
   /** Contacts that come and go; empty if displacements are small. */

@@ -119,9 +119,13 @@ namespace quoin
     QUOIN_INLINE PairPack(const NearPairs &near, const unsigned int *first,
                           const unsigned int n)
     {
+      if (n == lanes)
+        std::copy_n(first, lanes, pair);
+      else
+        for (unsigned int l = 0; l < lanes; ++l)
+          pair[l] = first[std::min(l, n - 1)];
       for (unsigned int l = 0; l < lanes; ++l)
       {
-        pair[l]  = first[std::min(l, n - 1)];
         lower[l] = near.edges_of(pair[l])[0];
         upper[l] = near.edges_of(pair[l])[1];
       }
