@@ -135,7 +135,7 @@ namespace quoin
       double softest_block = infinity, stiffest_block = 0.;
       double softest_whole = infinity; /**< E by size of the block [Pa/m] */
       unsigned int softest_material = 0;
-      double softest                = infinity; /**< E [Pa] */
+      double softest = infinity, stiffest = 0.; /**< E [Pa] */
     };
 
     /** Collective. */
@@ -170,7 +170,8 @@ namespace quoin
               shortest = std::min(
                   shortest,
                   nodes.point(corners[k]).distance(nodes.point(corners[l])));
-          result.softest = std::min(result.softest, young);
+          result.softest  = std::min(result.softest, young);
+          result.stiffest = std::max(result.stiffest, young);
           result.stiffest_cell
               = std::max(result.stiffest_cell, young / shortest);
           // As far as the smaller block reaches, a joint deforms the larger.
@@ -187,6 +188,7 @@ namespace quoin
       result.stiffest_cell  = MPI::max(result.stiffest_cell, all);
       result.stiffest_block = MPI::max(result.stiffest_block, all);
       result.softest        = MPI::min(result.softest, all);
+      result.stiffest       = MPI::max(result.stiffest, all);
       result.softest_whole  = MPI::min(result.softest_whole, all);
       MPI::min(softest, all, softest);
       const auto least     = std::min_element(softest.begin(), softest.end());
@@ -197,12 +199,14 @@ namespace quoin
 
     /** Warns of a material whose blocks are too soft for the implicit solver
         beside joints of normal stiffness @p kn that do for other blocks: by
-        more than @p limit times their E/L. Whether it does. */
+        more than @p limit times their E/L. Where all have the same modulus
+        blocks are large, not soft. Whether it warns. */
     bool check_soft_block(const JointSetParameters &set, const double kn,
                           const double limit, const Neighbours &beside,
                           const MaterialParameters &material, Advice &advice)
     {
-      const bool is_soft = kn > limit * beside.softest_block
+      const bool is_soft = material.elastic.young < beside.stiffest
+                           && kn > limit * beside.softest_block
                            && kn <= limit * beside.stiffest_block;
       Checks(advice, "material " + material.name + ": ")
           .warn_if(
