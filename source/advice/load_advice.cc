@@ -430,7 +430,7 @@ namespace quoin
   {
     const auto [bottom, top] = heights_of(nodes);
     // Ground under initial stress may lie far below the water table.
-    const double most = parameters.model.initial_stresses.empty() ? 3. : 50.;
+    const double most = parameters.model.initial_stresses.empty() ? 10. : 50.;
     const auto check_level
         = [&, low = bottom, high = top](const std::string &about,
                                         const std::string &entry,

@@ -118,9 +118,11 @@ namespace quoin
           break;
         }
       }
+      bool ends_in_joint = false;
       for (unsigned int b = 0; b < bars.size(); ++b)
         if (distances[first_end + b] < 1e-6 * length)
         {
+          ends_in_joint = true;
           checks.warn_if(true, bar_text(cable.bars[b]),
                          "ends in a joint, which it does not cross: it bears "
                          "nothing of what moves there. Let it reach into the "
@@ -131,7 +133,7 @@ namespace quoin
       // In blocks that yield, bars bear without joints.
       const auto &materials = model.properties().materials;
       checks.warn_if(
-          model.nodes().table().n_blocks() > 1
+          !ends_in_joint && model.nodes().table().n_blocks() > 1
               && std::none_of(materials.begin(), materials.end(),
                               [](const MaterialParameters &material)
                               { return material.strength.has_value(); })

@@ -107,10 +107,13 @@ namespace quoin
     {
       const std::string word
           = ParameterSection(histories, name).text("Quantity");
-      refusals.refuse_if(HistoryParameters::is_of_plane(word),
-                         "section 'Histories/" + name + "': 'Quantity = " + word
-                             + "'",
-                         "Take another quantity.");
+      if (!HistoryParameters::is_of_plane(word))
+        continue;
+      HistoryParameters history;
+      history.name      = name;
+      history.word      = word;
+      history.dimension = 2;
+      naming(parameters.file, [&]() { history.check_dimension<3>(); });
     }
   }
 
