@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/advice/contact_advice.h>
+#include <quoin/advice/load_advice.h>
 #include <quoin/advice/support_advice.h>
 #include <quoin/base/known_names.h>
 #include <quoin/parameters/plausibility.h>
@@ -127,12 +128,14 @@ namespace quoin
     /** Cells and blocks beside the joints of a set. */
     struct Neighbours
     {
-      bool exist            = false;
-      double stiffest_cell  = 0.;       /**< E by shortest edge [Pa/m] */
-      double softest_block  = infinity; /**< E by size of the block [Pa/m] */
-      double stiffest_block = 0.; /**< E by size of the stiffest block [Pa/m] */
+      bool exist           = false;
+      double stiffest_cell = 0.; /**< E by shortest edge [Pa/m] */
+      /** E of the softest and of the stiffest block by the size of it or, if it
+          is smaller, of the block beyond the joint [Pa/m]. */
+      double softest_block = infinity, stiffest_block = 0.;
+      double softest_whole = infinity; /**< E by size of the block [Pa/m] */
       unsigned int softest_material = 0;
-      double softest                = infinity; /**< E [Pa] */
+      double softest = infinity, stiffest = 0.; /**< E [Pa] */
     };
 
     /** Collective. */
@@ -167,10 +170,15 @@ namespace quoin
               shortest = std::min(
                   shortest,
                   nodes.point(corners[k]).distance(nodes.point(corners[l])));
-          result.softest = std::min(result.softest, young);
+          result.softest  = std::min(result.softest, young);
+          result.stiffest = std::max(result.stiffest, young);
           result.stiffest_cell
               = std::max(result.stiffest_cell, young / shortest);
-          const double by_block = young / sizes[face.blocks[side]];
+          // As far as the smaller block reaches, a joint deforms the larger.
+          const double by_block
+              = young / std::min(sizes[face.blocks[0]], sizes[face.blocks[1]]);
+          result.softest_whole  = std::min(result.softest_whole,
+                                           young / sizes[face.blocks[side]]);
           softest[material]     = std::min(softest[material], by_block);
           result.stiffest_block = std::max(result.stiffest_block, by_block);
         }
@@ -180,6 +188,8 @@ namespace quoin
       result.stiffest_cell  = MPI::max(result.stiffest_cell, all);
       result.stiffest_block = MPI::max(result.stiffest_block, all);
       result.softest        = MPI::min(result.softest, all);
+      result.stiffest       = MPI::max(result.stiffest, all);
+      result.softest_whole  = MPI::min(result.softest_whole, all);
       MPI::min(softest, all, softest);
       const auto least     = std::min_element(softest.begin(), softest.end());
       result.softest_block = *least;
@@ -189,12 +199,14 @@ namespace quoin
 
     /** Warns of a material whose blocks are too soft for the implicit solver
         beside joints of normal stiffness @p kn that do for other blocks: by
-        more than @p limit times their E/L. Whether it does. */
+        more than @p limit times their E/L. Where all have the same modulus
+        blocks are large, not soft. Whether it warns. */
     bool check_soft_block(const JointSetParameters &set, const double kn,
                           const double limit, const Neighbours &beside,
                           const MaterialParameters &material, Advice &advice)
     {
-      const bool is_soft = kn > limit * beside.softest_block
+      const bool is_soft = material.elastic.young < beside.stiffest
+                           && kn > limit * beside.softest_block
                            && kn <= limit * beside.stiffest_block;
       Checks(advice, "material " + material.name + ": ")
           .warn_if(
@@ -279,12 +291,12 @@ namespace quoin
             "be found. Take ",
             1e4 * beside.softest_block, " Pa/m or less.");
         checks.warn_if(
-            kn >= softest_joint && kn < soft * beside.softest_block
-                && std::isfinite(beside.softest_block),
+            kn >= softest_joint && kn < soft * beside.softest_whole
+                && std::isfinite(beside.softest_whole),
             "the normal stiffness ", kn,
             " Pa/m is less than a thousandth of E/L of the blocks beside "
             "them, ",
-            beside.softest_block, " Pa/m: blocks hardly deform. Check its unit",
+            beside.softest_whole, " Pa/m: blocks hardly deform. Check its unit",
             dim == 2
                 ? ", or make the blocks rigid, which takes far fewer steps."
                 : ".");
@@ -418,6 +430,9 @@ namespace quoin
     }
     check_initial_joints(parameters, model, state, advice);
     check_initial_stress(model, advice);
+    check_stress_at_rest(parameters, model, state, advice);
+    check_forgotten_loads(parameters, advice);
+    check_pressures(parameters, model.nodes(), advice);
     check_materials(parameters, model, advice);
     check_joints(parameters, model, advice);
     if (!parameters.is_implicit)

@@ -118,9 +118,11 @@ namespace quoin
           break;
         }
       }
+      bool ends_in_joint = false;
       for (unsigned int b = 0; b < bars.size(); ++b)
         if (distances[first_end + b] < 1e-6 * length)
         {
+          ends_in_joint = true;
           checks.warn_if(true, bar_text(cable.bars[b]),
                          "ends in a joint, which it does not cross: it bears "
                          "nothing of what moves there. Let it reach into the "
@@ -128,6 +130,22 @@ namespace quoin
                          "end before the joint.");
           break;
         }
+      // In blocks that yield, bars bear without joints.
+      const auto &materials = model.properties().materials;
+      checks.warn_if(
+          !ends_in_joint && model.nodes().table().n_blocks() > 1
+              && std::none_of(materials.begin(), materials.end(),
+                              [](const MaterialParameters &material)
+                              { return material.strength.has_value(); })
+              && std::all_of(bars.begin(), bars.end(),
+                             [](const PlacedBar *bar)
+                             { return bar->crossings.empty(); }),
+          bar_text(cable.bars[0]), bars.size() == 1 ? "" : "and all others ",
+          bars.size() == 1 ? "crosses" : "cross",
+          " no joint but lies within a block: nothing there moves apart that "
+          "it "
+          "could hold. Let it reach into the block beyond the joint that it is "
+          "meant for.");
       first_end += bars.size();
     }
   }

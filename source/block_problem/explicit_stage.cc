@@ -275,8 +275,10 @@ namespace quoin
           state.time, " s, step ", state.step,
           ": the stage will not reach equilibrium. Check the supports, and the "
           "units and signs of the loads; a model that may collapse needs 'End "
-          "conditions', and blocks that may fall a 'Box' in section 'Contact' "
-          "and 'Outside the box = delete'."));
+          "conditions'",
+          dim == 2 ? ", and blocks that may fall a 'Box' in section 'Contact' "
+                     "and 'Outside the box = delete'."
+                   : "."));
     }
 
     template <int dim>

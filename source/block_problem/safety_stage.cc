@@ -342,8 +342,12 @@ namespace quoin
         }
         judge_rest(watch.has_moved_on(), limit, trial);
       }
-      catch (const ModelFailure &)
+      catch (const ModelFailure &error)
       {
+        const std::string why = error.what();
+        log.message("stage ", stage.name, ": factor ", trial.factor, ": ",
+                    why.substr(0, why.find(". ")),
+                    ": steps and displacement are those of the last one");
         outputs.write_iterations();
         solver.record().jumps.clear();
       }
@@ -423,9 +427,15 @@ namespace quoin
             begin, "factors from ", (*open)[0], " to ", (*open)[1],
             ": their trials are undecided, because the model neither reached "
             "equilibrium nor kept moving, or reached it beyond the failure "
-            "displacement. Raise 'Maximum steps', lower 'Failure displacement' "
-            "if blocks keep moving without reaching it, or raise it if blocks "
-            "may settle beyond it. Until then the factor of safety is ",
+            "displacement. ",
+            system.implicit_solver
+                ? "The log says why of each. Lower 'First step' of section "
+                  "'Implicit' or 'Failure displacement', or search with "
+                  "'Solver = explicit'."
+                : "Raise 'Maximum steps', lower 'Failure displacement' if "
+                  "blocks keep moving without reaching it, or raise it if "
+                  "blocks may settle beyond it.",
+            " Until then the factor of safety is ",
             stable == 0. ? "not known to be above any" : "at least ",
             stable == 0. ? std::string() : text_of(stable));
       if (stable == 0. && !open)

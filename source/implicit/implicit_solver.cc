@@ -570,15 +570,30 @@ namespace quoin
                                  const bool jumped) const
   {
     const Balance<dim> &balance = newton->current_balance();
+    const bool is_beam          = !balance.failed_beam.empty();
+    const auto &properties      = model.properties();
+    const bool joints_fail
+        = model.nodes().faces().n_global_joints > 0
+          && std::any_of(properties.joints.begin(), properties.joints.end(),
+                         [](const JointSetParameters &set)
+                         { return can_fail(set.law); });
+    const bool blocks_fail
+        = std::any_of(properties.materials.begin(), properties.materials.end(),
+                      [](const MaterialParameters &material)
+                      { return material.strength.has_value(); });
+    const bool is_elastic = !is_beam && !joints_fail && !blocks_fail;
     const std::string why
-        = balance.failed_beam.empty()
-              ? "Forces are out of balance most "
-                    + worst_place(model, *dof_map, balance, set_names)
-                    + ". The model may have reached its limit load there"
-              : "The beam '" + balance.failed_beam
+        = is_beam
+              ? "The beam '" + balance.failed_beam
                     + "' found none with the blocks beside it. It may have "
                       "reached its limit load, by plastic hinges or by "
-                      "buckling";
+                      "buckling"
+              : "Forces are out of balance most "
+                    + worst_place(model, *dof_map, balance, set_names)
+                    + (is_elastic ? ". Neither joints nor blocks can fail: "
+                                    "check supports, stiffnesses and loads"
+                                  : ". The model may have reached its limit "
+                                    "load there");
     std::ostringstream message;
     message << "no equilibrium was found beyond "
             << (state.template get<ImplicitState>().released < 1.
@@ -591,16 +606,21 @@ namespace quoin
                          "against a viscous drag, after steps were reduced to "
                        : ", although steps were reduced to ")
             << number_text(tried) << " of the stage. " << why
-            << (parameters.path == PathFollowing::never
+            << (parameters.path == PathFollowing::never && !is_elastic
                     ? ": 'Path following = automatic' in section 'Implicit' "
                       "could follow it down"
                     : "")
-            << "; otherwise lower 'First step', raise 'Maximum "
-               "iterations', or look at the strengths "
-            << (balance.failed_beam.empty() ? "of those joints"
-                                            : "and loads of that beam")
-            << ". Compare with 'Solver = explicit' before you take it for the "
-               "limit load. The last equilibrium is kept.";
+            << "; otherwise lower 'First step'"
+            << (is_elastic
+                    ? " or raise 'Maximum iterations'"
+                    : ", raise 'Maximum iterations', or look at the "
+                      "strengths "
+                          + std::string(is_beam       ? "and loads of that beam"
+                                        : joints_fail ? "of those joints"
+                                                      : "of that block")
+                          + ". Compare with 'Solver = explicit' before "
+                            "you take it for the limit load")
+            << ". The last equilibrium is kept.";
     throw ModelFailure(message.str());
   }
 

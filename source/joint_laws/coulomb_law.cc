@@ -114,6 +114,18 @@ namespace quoin
            + (failed.empty() ? "" : " (once failed " + failed + ")");
   }
 
+  std::string CoulombLaw::warning() const
+  {
+    const double apex = peak.cohesion / peak.friction;
+    // The failed joint keeps its tension, but bears no shear beyond its apex.
+    if (!can_fail() || !(peak.tension > (1. + 1e-6) * apex))
+      return "";
+    return text_of("'Tensile strength = ", peak.tension,
+                   "' Pa is above cohesion / tan(friction angle), ", apex,
+                   " Pa, at which the least shear breaks the joint: that acts "
+                   "in its place. Give at most that.");
+  }
+
   CoulombLaw CoulombLaw::reduced(const double factor) const
   {
     CoulombLaw weak = *this;

@@ -387,9 +387,10 @@ namespace quoin
       throw InputError(text_of(
           "section 'Stages/", stage, "': block ", b, " at ",
           point_text(point_of_block(model.nodes(), b)),
-          " m and what is joined to it can move freely, so a stage with 'End = "
-          "static ratio' would not reach equilibrium. Hold it by a prescribed "
-          "motion or a driven platen, or end the stage by 'time'.",
+          " m and what is joined to it can move freely, so neither the "
+          "implicit solver nor a stage with 'End = static ratio' would reach "
+          "equilibrium. Hold it by a prescribed motion or a driven platen, or "
+          "let the explicit solver end the stage by 'time'.",
           gap_text(model, bodies, b)));
     }
   }

@@ -370,12 +370,44 @@ namespace quoin
                           "take '"
                         + set.name + "' out of 'Names'.");
     }
+
+    /** Refuses joints of which the generator of rock has left nothing. */
+    void check_rock_joints(const ParameterSection &top,
+                           const Parameters &parameters)
+    {
+      if (parameters.generated.name != "rock")
+        return;
+      const bool is_box = RockBoxParameters::read(top).is_there();
+      const auto named
+          = ParameterSection(top, is_box ? "Rock joint sets" : "Rock joints")
+                .list("Names");
+      const ParameterSection section(top, "Joints");
+      for (const JointSetParameters &set : parameters.model.joints)
+        for (const std::string &curve : set.curves)
+          if (is_among(curve, named)
+              && !is_among(curve, parameters.generated.joint_curves))
+            ParameterSection(section, set.name)
+                .fail("Curves",
+                      "means the joints '" + curve
+                          + "', of which nothing is left in the rock: "
+                          + (is_box
+                                 ? "they lie outside it, or cut off pieces "
+                                   "below 'Shortest edge' of section 'Rock box'"
+                                 : "they lie outside it, end within it, where "
+                                   "'Dead ends = cut' removes them, or are "
+                                   "left out by 'Shortest edge' and 'Smallest "
+                                   "block', which follow from 'Element size' "
+                                   "unless they are given")
+                          + ". Correct that" + ", or take '" + curve
+                          + "' out of 'Curves'.");
+    }
   } // namespace
 
   void read_block_model(const ParameterSection &top, Parameters &parameters)
   {
     parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
     check_wall_joints(top, parameters);
+    check_rock_joints(top, parameters);
     parameters.model.contact
         = ContactParameters::read(ParameterSection(top, "Contact"));
     parameters.model.large_displacements

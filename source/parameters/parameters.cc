@@ -185,7 +185,10 @@ namespace quoin
                  "leave it 'explicit'; statics of these is 'Analysis = "
                  "static'.");
       if (!parameters.is_boundary_model)
+      {
         read_mesh(top, parameters);
+        check_sections_in_space(top, parameters);
+      }
       parameters.model.materials
           = read_named<MaterialParameters>(top, "Materials");
       if (parameters.model.materials.empty())

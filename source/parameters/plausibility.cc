@@ -122,6 +122,13 @@ namespace quoin
     const Range wall_strength{ "Joint wall strength", 1e5, 1e9, "Pa",
                                meant_strength };
     const Range closure{ "Largest closure", 1e-7, 0.02, "m", meant_length };
+    std::string meant_share(const double value)
+    {
+      return text_of("in per cent it would be ", 0.01 * value);
+    }
+    const Range stress_ratio{ "Horizontal ratio", 0., 5.,
+                              "times the vertical stress", meant_share };
+    const Range peak_slip{ "Peak slip", 1e-7, 0.1, "m", meant_length };
     const Range unit_weight{ "Unit weight", 5e3, 1e5, "N/m^3",
                              meant_unit_weight };
     const Range water_weight{ "Unit weight", 5e3, 3e4, "N/m^3",
@@ -149,7 +156,8 @@ namespace quoin
                 { { "Diameter", 1e-3, 1., "m", meant_length },
                   { "Young's modulus", 1e9, 1e12, "Pa", meant_modulus },
                   { "Yield force", 1e3, 1e9, "N", meant_force },
-                  { "Bond stiffness", 1e5, 1e13, "Pa", meant_modulus } } },
+                  { "Bond stiffness", 1e5, 1e13, "Pa", meant_modulus },
+                  { "Rupture strain", 1e-4, 0.499, "", meant_share } } },
               { "Beams",
                 "beam",
                 { { "Young's modulus", 1e8, 1e12, "Pa", meant_modulus },
@@ -172,7 +180,8 @@ namespace quoin
         return;
       const std::string meant = range.meant(values[0]);
       warnings.push_back(
-          text_of(where, "'", range.name, " = ", values[0], "' ", range.unit,
+          text_of(where, "'", range.name, " = ", values[0], "'",
+                  range.unit.empty() ? "" : " ", range.unit,
                   values[0] < range.low ? " is far less" : " is far more",
                   " than usual", meant.empty() ? "" : ": ", meant,
                   ". Check the unit."));
@@ -314,7 +323,7 @@ namespace quoin
         if (warnings.size() == n) // it would be the same mistake
           check(own, where, shear_stiffness, warnings);
         for (const Range *range : { &cohesion, &friction, &tension, &crushing,
-                                    &wall_strength, &closure })
+                                    &wall_strength, &closure, &peak_slip })
           check(own, where, *range, warnings);
         if (const double pressure = pressure_of_gain(set.law);
             std::isfinite(pressure))
@@ -371,8 +380,9 @@ namespace quoin
             + ": a gravity of 0 in all directions does nothing. Give "
               "'Vertical', such as -9.81, or remove the load.");
       if (load.type == LoadType::initial_stress)
-        check(ParameterSection(ParameterSection(top, "Loads"), load.name),
-              "load " + load.name + ": ", unit_weight, warnings);
+        for (const Range *range : { &unit_weight, &stress_ratio })
+          check(ParameterSection(ParameterSection(top, "Loads"), load.name),
+                "load " + load.name + ": ", *range, warnings);
       if (acts_upwards(load, parameters))
         warnings.push_back("load " + load.name
                            + ": gravity acts upwards. Give 'Vertical' a minus "

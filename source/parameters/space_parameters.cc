@@ -2,7 +2,10 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/parameters/parameters.h>
+#include <quoin/parameters/model_parameters.h>
+
+#include <fstream>
+#include <regex>
 
 namespace quoin
 {
@@ -68,6 +71,51 @@ namespace quoin
       }
     }
   } // namespace
+
+  namespace
+  {
+    /** Whether the mesh will be one of tetrahedra, as far as its file or
+        'Dimension' says so. */
+    bool is_in_space(const Parameters &parameters)
+    {
+      if (parameters.dimension != MeshDimension::from_mesh
+          || !parameters.generated.geometry.empty())
+        return parameters.dimension == MeshDimension::three;
+      static const std::regex volume(
+          R"(\s*(Physical Volume\b.*|3 \d+ "[^"]*"\s*))");
+      std::ifstream file(parameters.mesh_file);
+      for (std::string line; std::getline(file, line) && line != "$Nodes";)
+        if (std::regex_match(line, volume))
+          return true;
+      return false;
+    }
+  } // namespace
+
+  void check_sections_in_space(const ParameterSection &top,
+                               const Parameters &parameters)
+  {
+    if (!is_in_space(parameters))
+      return;
+    const Refusals refusals(parameters.file);
+    for (const std::string name : { "Reinforcement", "Blocks", "Beams" })
+      refusals.refuse_if(!ParameterSection(top, name).list("Names").empty(),
+                         "section '" + name + "': 'Names'", "Leave it empty.");
+    refusals.refuse_if(!ParameterSection(top, "Contact").text("Box").empty(),
+                       "section 'Contact': 'Box'", "Leave it empty.");
+    const ParameterSection histories(top, "Histories");
+    for (const std::string &name : histories.list("Names"))
+    {
+      const std::string word
+          = ParameterSection(histories, name).text("Quantity");
+      if (!HistoryParameters::is_of_plane(word))
+        continue;
+      HistoryParameters history;
+      history.name      = name;
+      history.word      = word;
+      history.dimension = 2;
+      naming(parameters.file, [&]() { history.check_dimension<3>(); });
+    }
+  }
 
   void check_three_dimensions(const Parameters &parameters)
   {

@@ -343,6 +343,12 @@ namespace quoin
   template void HistoryParameters::check_dimension<2>() const;
   template void HistoryParameters::check_dimension<3>() const;
 
+  bool HistoryParameters::is_of_plane(const std::string &quantity)
+  {
+    const auto found = kinds().find(quantity);
+    return found != kinds().end() && found->second.dimension == 2;
+  }
+
   void HistoryParameters::declare(dealii::ParameterHandler &prm)
   {
     declare_entries(prm, enter);

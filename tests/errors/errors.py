@@ -760,6 +760,36 @@ def implicit_limit_load(quoin, folder):
     return printed
 
 
+def elastic_model_without_equilibrium(quoin, folder):
+    """No strength is named as the reason where nothing can fail."""
+    status, printed = run([quoin, prepare(folder)] + settings({"set": [
+        "Solver=implicit", "Joints/bed/Law=elastic",
+        "Joints/bed/Normal stiffness=1e25"]}))
+    expect(status, printed, 2, ["no equilibrium", "Neither joints nor blocks can fail",
+                                "First step", "last equilibrium is kept"])
+    for word in ("limit load", "strengths"):
+        if word in printed:
+            raise Failure("it speaks of '%s':\n%s" % (word, printed.strip()))
+    return printed
+
+
+def undecided_factor_of_the_implicit_solver(quoin, folder):
+    """The log says why a trial has no equilibrium."""
+    status, printed = run([quoin, prepare(folder)] + settings({"set": [
+        "Solver=implicit", "Loads/push/Horizontal=3e4",
+        "Implicit/First step=1", "Implicit/Largest step=1",
+        "Implicit/Smallest step=0.9", "Stages/second/End=factor of safety",
+        "Stages/second/First factor=3", "Stages/second/Highest factor=3",
+        "Stages/second/Factor tolerance=1"]}))
+    expect(status, printed, 0, [
+        "factor 3: no equilibrium was found", "steps were reduced to",
+        "those of the last one", "factor 3 is undecided",
+        "are undecided", "The log says why", "Solver = explicit"])
+    if "Maximum steps" in printed:
+        raise Failure("it advises steps of the explicit solver")
+    return printed
+
+
 def starting(words, folder):
     """A run under way, once it has written to its log; it prints to 'screen'."""
     log = os.path.join(folder, "output", "log.txt")
@@ -1144,6 +1174,8 @@ FUNCTIONS = [base_case_runs, quiet_run, boundary_begins_in_motion,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
              no_number_at_the_end, runaway, reported_block, deleted_block,
+             elastic_model_without_equilibrium,
+             undecided_factor_of_the_implicit_solver,
              other_ranks, failure_of_one_rank, more_ranks_than_rigid_blocks,
              other_parameters, nothing_to_resume, failing_block_leaves,
              safety_changes_nothing, last_allowed_step, implicit_checkpoints,

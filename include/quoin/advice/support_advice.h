@@ -10,7 +10,7 @@ namespace quoin
 {
   /** Warns of bars that bear less than their entries say: elements too long
       for the forces, active lengths for which there is no room, ends at joints
-      and free lengths across them. Collective. */
+      and free lengths across them, or no joint at all. Collective. */
   void check_bars(const Model<2> &model, Advice &advice);
 
   /** Warns of pressures in joints that section 'Water' fills as well, and of

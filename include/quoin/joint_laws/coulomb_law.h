@@ -84,6 +84,8 @@ namespace quoin
 
     /** Description of the law for --check. */
     std::string text() const;
+    /** Warns of a tensile strength that no joint under shear reaches. */
+    std::string warning() const;
 
     /** Strengths divided by @p factor, peak and residual; dilation is not
         above the friction that is left. */

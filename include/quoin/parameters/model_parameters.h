@@ -18,6 +18,11 @@ namespace quoin
       wall or of rock, and the places of joints. */
   void read_mesh(const ParameterSection &top, Parameters &parameters);
 
+  /** Refuses sections that belong to two dimensions before their entries are
+      read, if the mesh is known to have three. */
+  void check_sections_in_space(const ParameterSection &top,
+                               const Parameters &parameters);
+
   /**
    * Reads the sections of a model of blocks into @p parameters, which has mesh,
    * materials and histories already: joints, contact, loads, far field, initial

@@ -112,6 +112,10 @@ namespace quoin
     template <int dim>
     void check_dimension() const;
 
+    /** Whether @p quantity, as in a parameter file, is one of models in two
+        dimensions alone. */
+    static bool is_of_plane(const std::string &quantity);
+
     static void declare(dealii::ParameterHandler &prm);
     static HistoryParameters read(const ParameterSection &section,
                                   const std::string &name);
