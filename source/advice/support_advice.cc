@@ -142,10 +142,9 @@ namespace quoin
                              { return bar->crossings.empty(); }),
           bar_text(cable.bars[0]), bars.size() == 1 ? "" : "and all others ",
           bars.size() == 1 ? "crosses" : "cross",
-          " no joint but lies within a block: nothing there moves apart that "
-          "it "
-          "could hold. Let it reach into the block beyond the joint that it is "
-          "meant for.");
+          bars.size() == 1 ? " no joint but lies" : " no joint but lie",
+          " within a block: nothing there moves apart that it could hold. Let "
+          "it reach into the block beyond the joint that it is meant for.");
       first_end += bars.size();
     }
   }

@@ -172,10 +172,11 @@ namespace quoin
     const double found
         = highest_squared_frequency(model, model.mass(), unscaled);
     if (found > 0. && found < bound)
-      run.log.message("by the stiffness of all blocks and joints together the "
-                      "critical step would be ",
+      run.log.message("by the stiffness of all blocks and joints together, "
+                      "'Critical time step = assembled' in section 'Time "
+                      "stepping', the critical step is ",
                       std::sqrt(bound / found),
-                      " times as long as by the bound that is used");
+                      " times as long as by the bound of each node");
   }
 
   template <int dim>

@@ -183,7 +183,9 @@ namespace quoin
         *model, loads, parameters.stages, std::move(far),
         std::move(static_far));
     explicit_solver = made.get();
-    solver          = std::move(made);
+    if (parameters.takes_assembled_step)
+      explicit_solver->take_assembled_step();
+    solver = std::move(made);
   }
 
   template <>

@@ -5,6 +5,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/explicit_solver.h>
+#include <quoin/dynamics/highest_frequency.h>
 #include <quoin/dynamics/kinetic_energy.h>
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/loading/constraint_checks.h>
@@ -82,6 +83,25 @@ namespace quoin
   // -- a stage ----------------------------------------------------------------
 
   template <int dim>
+  double ExplicitSolver<dim>::largest_eigenvalue() const
+  {
+    const double bound = model.stability().largest_eigenvalue(
+        node_mass, rigid_stage.mass_factor);
+    const auto &joints = model.properties().joints;
+    if (!takes_assembled_step
+        || std::any_of(joints.begin(), joints.end(),
+                       [](const JointSetParameters &set)
+                       { return set.damping.acts(); }))
+      return bound;
+    if constexpr (dim == 2)
+      if (!model.reinforcement().empty())
+        return bound;
+    const double found
+        = highest_squared_frequency(model, node_mass, rigid_stage);
+    return found > 0. ? std::min(bound, found) : bound;
+  }
+
+  template <int dim>
   void ExplicitSolver<dim>::scale_masses(const StageParameters &stage,
                                          const double start, State<dim> &state)
   {
@@ -119,9 +139,7 @@ namespace quoin
     // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
 
-    double eigenvalue = std::max(masses.beam_eigenvalue,
-                                 model.stability().largest_eigenvalue(
-                                     node_mass, rigid_stage.mass_factor));
+    double eigenvalue = std::max(masses.beam_eigenvalue, largest_eigenvalue());
     for (const MotionConstraint<dim> *constraint : acting.constraints)
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
     if constexpr (dim == 2)

@@ -398,7 +398,7 @@ namespace quoin
                                    "left out by 'Shortest edge' and 'Smallest "
                                    "block', which follow from 'Element size' "
                                    "unless they are given")
-                          + ". Correct that" + ", or take '" + curve
+                          + ". Correct that, or take '" + curve
                           + "' out of 'Curves'.");
     }
   } // namespace

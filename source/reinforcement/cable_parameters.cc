@@ -332,6 +332,10 @@ namespace quoin
         = std::tan(entries.friction) * constants::pi * entries.diameter;
     if (cable.element_length == 0.)
       cable.element_length = automatic_length(cable);
+    // The length follows from coordinates, with their rounding.
+    if (const double length = cable.bars[0][0].distance(cable.bars[0][1]);
+        std::abs(cable.free_length - length) <= 1e-9 * length)
+      cable.free_length = length;
     check(cable, section);
     refuse_idle_strengths(cable.law, entries.friction, section);
     return cable;

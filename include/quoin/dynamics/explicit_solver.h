@@ -79,6 +79,13 @@ namespace quoin
     void resume_stage(const StageParameters &stage,
                       const StageParameters *previous, State<dim> &state);
 
+    /** Lets the critical step of the next stages be that of the assembled
+        stiffness, where the model has no stiffness but that of
+        highest_squared_frequency(). */
+    void take_assembled_step()
+    {
+      takes_assembled_step = true;
+    }
     /** Critical time step of the stage [s], the same on all ranks. */
     double critical_time_step() const
     {
@@ -146,6 +153,10 @@ namespace quoin
     /** Time of a shear wave along the model and back, with added masses [s];
         0 if all blocks are rigid. */
     double passage_time() const;
+    /** Largest omega^2 of blocks, joints and contacts with the masses of the
+        stage: by the bound of this rank or, if that is wanted, of the assembled
+        stiffness [1/s^2]. Collective. */
+    double largest_eigenvalue() const;
     /** Time over which gravity that begins in the stage grows [s]. */
     double automatic_ramp() const;
     /** Duration of the release of held forces in this stage [s]. */
@@ -193,7 +204,8 @@ namespace quoin
     CentralDifferences<dim> stepper;
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
     AddedWater<dim> water;
-    double critical_step = 0.;
+    bool takes_assembled_step = false;
+    double critical_step      = 0.;
     AddedMass added;
     double time_step = 0.;
 

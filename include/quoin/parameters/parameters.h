@@ -69,6 +69,8 @@ namespace quoin
     ImplicitParameters implicit;
 
     double share_of_critical_step = 0.8;
+    /** Whether the critical step is that of the assembled stiffness. */
+    bool takes_assembled_step = false;
     double time_step              = 0.; /**< [s]; 0: automatic */
 
     std::vector<HistoryParameters> histories;

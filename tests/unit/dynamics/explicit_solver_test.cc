@@ -59,6 +59,44 @@ TEST(ExplicitSolver, EnergyBalanceOfAnElasticModel)
   EXPECT_GT(run.solver.energies().joint, 0.);
 }
 
+// Just below the critical step of the assembled stiffness, which is longer than
+// that of the bound, energies stay; just above it they grow without end.
+TEST(ExplicitSolver, TakesTheStepOfTheAssembledStiffness)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 6, 4);
+  const auto critical_and_growth = [&](const bool assembled, const double share)
+  {
+    TestRun run(mesh, two_blocks(),
+                { motion("base", "bottom", "0", "0"),
+                  traction("pull", "top", "1e-4 * sin(500*t)", "2e-4") });
+    if (assembled)
+      run.solver.take_assembled_step();
+    run.begin(stage_with({ "base", "pull" }), share);
+    const auto kinetic_after = [&](const unsigned int n)
+    {
+      double largest = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        run.solver.step(run.state, { true, false });
+        largest = std::max(largest, run.solver.energies().kinetic);
+      }
+      return largest;
+    };
+    const double early = kinetic_after(1000), late = kinetic_after(1000);
+    return std::array<double, 2>{ run.solver.critical_time_step(),
+                                  late / early };
+  };
+  const auto [bound, calm]  = critical_and_growth(false, 0.99);
+  const auto [step, calmly] = critical_and_growth(true, 0.995);
+  const auto [same, growth] = critical_and_growth(true, 1.03);
+  EXPECT_GT(step, 1.03 * bound);
+  EXPECT_EQ(step, same);
+  EXPECT_LT(calm, 10.);
+  EXPECT_LT(calmly, 10.);
+  EXPECT_GT(growth, 1e6);
+}
+
 TEST(ExplicitSolver, KineticEnergySlowsTheLoadsDown)
 {
   BlockMesh<2> mesh;
