@@ -449,6 +449,31 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
     }
 }
 
+// The overlap of a joint of one face has become shorter by the slip when it is
+// handed over, which its area still allows for.
+TEST(BlockContacts, TheLengthOfAHandedOverJointDoesNotJump)
+{
+  JointSetParameters weak = elastic_joint(kn, ks);
+  coulomb_law(weak).peak = coulomb_law(weak).residual = { 0., 0.1, 0. };
+  Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 1, 1); },
+              { weak, touching() });
+  const unsigned int upper = scene.block_at(0., 2.);
+  scene.move(upper, 0., -closing);
+  scene.find_forces();
+  const double before = scene.total(upper)[1];
+  double slip         = 0.;
+  while (!scene.state.get<ContactState>().handed_over[0])
+  {
+    slip += 1e-4;
+    scene.move(upper, 1e-4, 0.);
+    scene.find_forces();
+    ASSERT_LT(slip, 0.05);
+  }
+  scene.find_forces(false);
+  EXPECT_GT(slip, 4e-4);
+  EXPECT_NEAR(scene.total(upper)[1], before, 0.1 * slip * before);
+}
+
 // A joint that has slipped is handed over and unloads, within its strength: its
 // forces are those of a twin that has stayed a matched joint.
 TEST(BlockContacts, HandedOverJointsGoOnFromTheirHistory)
