@@ -348,15 +348,6 @@ namespace quoin
     double dissipated = 0.;
     if (!data.is_plastic())
       return dissipated;
-    if (!data.quadratic)
-    {
-      // In lanes, whose forces are not wanted.
-      AlignedArray<dealii::Tensor<1, 2>> force(
-          tiles.empty() ? 0 : tiles.back().nodes.end);
-      for (unsigned int tile = 0; tile < n_tiles(); ++tile)
-        dissipated += add_forces(tile, nodes, history, force.data());
-      return dissipated;
-    }
     for (std::size_t k = 0; k < data.cells.size(); ++k)
       if (data.law_of(k))
       {

@@ -22,9 +22,6 @@ namespace quoin
     /** Displacement of all nodes by the model's size [-]: the forces for it
         count as applied, as without loads there is only rounding. */
     constexpr double least_motion = 1e-11;
-    /** As that, by the displacements there are, whose rounding is all there is
-        where blocks turn without load. */
-    constexpr double least_change = 1e-7;
 
     double area_of_points(const JointSegment &segment)
     {
@@ -78,8 +75,8 @@ namespace quoin
       sums[1] += model.mass()[i];
     sums[2] = model.nodes().n_deformable_nodes();
     MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, communicator);
-    path_area              = sums[3];
-    const double stiffness = node_stiffness
+    path_area = sums[3];
+    const double stiffness
         = sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness();
     const unsigned int n_nodes = model.nodes().exchange().n_global();
     least_applied
@@ -511,7 +508,7 @@ namespace quoin
         for (double &force : balance.held[b])
           force *= left;
       }
-    find_ratio(applied_force, configuration, balance);
+    find_ratio(applied_force, balance);
   }
 
   template <int dim>
@@ -531,9 +528,9 @@ namespace quoin
   template <int dim>
   void Equilibrium<dim>::find_ratio(
       const AlignedArray<dealii::Tensor<1, dim>> &applied,
-      const Configuration<dim> &configuration, Balance<dim> &balance)
+      Balance<dim> &balance)
   {
-    double sums[4]{}; // unbalanced, applied, dragged, moved
+    double sums[3] = { 0., 0., 0. }; // unbalanced, applied, dragged
     AlignedArray<dealii::Tensor<1, dim>> total = balance.force;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       total[i] += balance.drag[i];
@@ -541,7 +538,6 @@ namespace quoin
     {
       sums[1] += applied[i].norm();
       sums[2] += balance.drag[i].norm();
-      sums[3] += configuration.nodes[i].u.norm();
       dealii::Tensor<1, dim> free = total[i], given = total[i];
       for (unsigned int d = 0; d < dim; ++d)
         (dof_map.is_free(i, d) ? given : free)[d] = 0.;
@@ -564,16 +560,14 @@ namespace quoin
                               + balance.held[b][d])
                      / (d >= dim ? size : 1.);
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, communicator);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     // Corrections by a matrix that is singular may not be numbers.
     const bool is_finite = std::isfinite(sums[0] + sums[1]);
     balance.unbalanced   = balance.failed_beam.empty() && is_finite
                                ? sums[0]
                                : std::numeric_limits<double>::infinity();
     balance.applied
-        = is_finite ? std::max({ sums[1], least_applied,
-                                 least_change * node_stiffness * sums[3] })
-                    : least_applied;
+        = is_finite ? std::max(sums[1], least_applied) : least_applied;
     balance.dragged = sums[2];
   }
 

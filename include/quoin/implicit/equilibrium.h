@@ -177,7 +177,6 @@ namespace quoin
     void add_pattern(const Configuration<dim> &configuration, double load_time,
                      DofVector &by_advance);
     void find_ratio(const AlignedArray<dealii::Tensor<1, dim>> &applied,
-                    const Configuration<dim> &configuration,
                     Balance<dim> &balance);
     /** Finds the values of the matrix that an element adds to. */
     void find_places(const ElementLinearisation<dim> &element);
@@ -218,8 +217,7 @@ namespace quoin
     MPI_Comm communicator;
     double path_area     = 0.; /**< of the joints that measure the path [m^2] */
     double least_applied = 0.; /**< lower bound of Balance::applied [N] */
-    double node_stiffness = 0.;         /**< a typical one [N/m] */
-    double drag           = 0.;         /**< [-] */
+    double drag          = 0.; /**< [-] */
     std::vector<double> drag_stiffness; /**< of local nodes, for drag 1 [N/m] */
 
     const LoadPattern<dim> *pattern;
