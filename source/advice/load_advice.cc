@@ -88,7 +88,7 @@ namespace quoin
              || (names_load(*before, load.name)
                  && pushes(load, *before, start)))
                 && !names_load(stage, load.name)
-                // Of a weight that explicit stages forget is warned anyway.
+                // Another warning speaks of weight that explicit stages forget.
                 && (load.type != LoadType::gravity || parameters.is_implicit
                     || is_in_pattern(*before, load.name))
                 && !replaces(stage, load, parameters),
@@ -108,9 +108,9 @@ namespace quoin
 
   namespace
   {
-    /** Of each block its lowest and highest point [m], first above the sea,
-        then above the surface of an in-situ stress; infinite for those without
-        that stress. Collective. */
+    /** The lowest and the highest point of each block [m], as its height and
+        above the surface of an in-situ stress; infinite for blocks without that
+        stress. Collective. */
     template <int dim>
     struct StressedBlocks
     {

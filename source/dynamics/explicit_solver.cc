@@ -94,7 +94,7 @@ namespace quoin
                        { return set.damping.acts(); }))
       return bound;
     if constexpr (dim == 2)
-      if (!model.reinforcement().empty())
+      if (!model.reinforcement().empty() || all.beams)
         return bound;
     const double found
         = highest_squared_frequency(model, node_mass, rigid_stage);

@@ -80,6 +80,24 @@ namespace quoin
     return held;
   }
 
+  namespace
+  {
+    /** Whether @p a and @p b move a common node of any rank, the first of which
+        is at @p p. Collective. */
+    template <int dim>
+    bool share_node(const Model<dim> &model, const MotionConstraint<dim> &a,
+                    const MotionConstraint<dim> &b, dealii::Point<dim> &p)
+    {
+      std::vector<unsigned int> shared;
+      std::set_intersection(a.nodes().begin(), a.nodes().end(),
+                            b.nodes().begin(), b.nodes().end(),
+                            std::back_inserter(shared));
+      return first_point(model.nodes(),
+                         shared.empty() ? NodeMap<dim>::none : shared.front(),
+                         p);
+    }
+  } // namespace
+
   template <int dim>
   void
   refuse_shared_platens(const Model<dim> &model,
@@ -92,14 +110,8 @@ namespace quoin
         if (a == b || !a->traits().is_rigid_body()
             || !b->traits().is_rigid_body())
           continue;
-        std::vector<unsigned int> shared;
-        std::set_intersection(a->nodes().begin(), a->nodes().end(),
-                              b->nodes().begin(), b->nodes().end(),
-                              std::back_inserter(shared));
         dealii::Point<dim> p;
-        if (!first_point(model.nodes(),
-                         shared.empty() ? NodeMap<dim>::none : shared.front(),
-                         p))
+        if (!share_node(model, *a, *b, p))
           continue;
         throw InputError("section 'Stages/" + stage.name + "': the platens '"
                          + a->name() + "' and '" + b->name()
@@ -122,14 +134,8 @@ namespace quoin
         if (!platen->traits().is_rigid_body()
             || motion->traits().kind != MotionKind::prescribed)
           continue;
-        std::vector<unsigned int> shared;
-        std::set_intersection(platen->nodes().begin(), platen->nodes().end(),
-                              motion->nodes().begin(), motion->nodes().end(),
-                              std::back_inserter(shared));
         dealii::Point<dim> p;
-        if (!first_point(model.nodes(),
-                         shared.empty() ? NodeMap<dim>::none : shared.front(),
-                         p))
+        if (!share_node(model, *platen, *motion, p))
           continue;
         for (unsigned int d = 0; d < dim; ++d)
           if (motion->traits().holds[d] && !platen->traits().holds[d])

@@ -79,11 +79,12 @@ namespace quoin
       entries.choice(
           "Critical time step", parameters.takes_assembled_step,
           { { "bound", false }, { "assembled", true } },
-          "bound: the critical time step from a bound of the highest frequency "
-          "by each node and what is joined to it; assembled: from the highest "
-          "frequency of all blocks and joints together, by the Lanczos "
-          "iteration at the start of each stage, which is 1.01 to 1.4 times as "
-          "long. Models with bars or with dashpots in joints keep the bound.");
+          "From what the critical time step follows. bound: a bound of the "
+          "highest frequency by each node and what is joined to it; assembled: "
+          "the highest frequency of all blocks and joints together, by the "
+          "Lanczos iteration at the start of each stage, which makes it 1.0 to "
+          "1.4 times as long. Models with bars, beams, or dashpots in joints "
+          "keep the bound.");
       entries.nonnegative(
           "Time step", parameters.time_step,
           "Time step, which must be below the critical one; 0: the critical "

@@ -161,7 +161,8 @@ namespace quoin
     void warn_of_joint_motion() const;
     /** Warns of beams that would buckle. */
     void warn_of_unstable_beams() const;
-    /** Warns of beams whose axial force is beyond their strength. */
+    /** Warns of beams whose axial force is beyond their strength, and of liners
+        that it bends along the chords of a curve. */
     void warn_of_beam_forces() const;
     /** Warns if joints lost their bond while loads came on; collective. */
     void warn_of_lost_bond() const;
