@@ -66,10 +66,14 @@ namespace quoin
       for (const unsigned int c : this->captured_positions)
       {
         const CapturedNode<dim> &before = captured[c];
-        dealii::Point<3> place;
-        for (unsigned int e = 0; e < dim; ++e)
-          place[e] = state.nodes[before.node].X[e];
-        const double velocity = component.field ? velocity_at(place) : common;
+        double velocity                 = common;
+        if (component.field)
+        {
+          dealii::Point<3> place;
+          for (unsigned int e = 0; e < dim; ++e)
+            place[e] = state.nodes[before.node].X[e];
+          velocity = velocity_at(place);
+        }
         state.velocity[before.node][d] = velocity;
         state.nodes[before.node].u[d]
             = before.displacement[d] + step.dt * velocity;
@@ -84,6 +88,7 @@ namespace quoin
                                  State<dim> &state)
   {
     this->last_resultant = {};
+    double power_before = 0., power_after = 0.;
     for (const unsigned int c : this->captured_positions)
     {
       const CapturedNode<dim> &before = captured[c];
@@ -96,13 +101,14 @@ namespace quoin
         reaction[d]
             = before.mass * (after - before.velocity[d]) / step.dt_velocity
               - before.force[d];
-        state.energy.external
-            += 0.5 * step.dt_before * reaction[d] * before.velocity[d];
-        state.pending.external += 0.5 * step.dt * reaction[d] * after;
+        power_before += reaction[d] * before.velocity[d];
+        power_after += reaction[d] * after;
       }
       add_force(reaction, place_before(before, state.nodes[before.node]),
                 this->last_resultant);
     }
+    state.energy.external += 0.5 * step.dt_before * power_before;
+    state.pending.external += 0.5 * step.dt * power_after;
   }
 
   template class PrescribedMotion<2>;

@@ -41,9 +41,10 @@ namespace quoin
         = state.template get<ResultOrigin<dim>>().has_failed;
     const AlignedArray<JointState> &now
         = state.template get<JointHistoryOf<dim>>().state;
-    for (unsigned int p = 0; p < has_failed.size(); ++p)
-      if (now[p] == JointState::slipping || now[p] == JointState::open)
-        has_failed[p] = 1;
+    // Without a branch, so that compilers find vectors.
+    for (std::size_t p = 0; p < has_failed.size(); ++p)
+      has_failed[p] |= std::uint8_t(now[p] == JointState::slipping)
+                       | std::uint8_t(now[p] == JointState::open);
   }
 
   template <int dim>

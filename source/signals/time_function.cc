@@ -11,6 +11,8 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/lexical_cast/try_lexical_convert.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -51,6 +53,13 @@ namespace quoin
       text = text.substr(times + 7);
     }
 
+    double constant = 0.;
+    if (!is_named && boost::conversion::try_lexical_convert(text, constant)
+        && std::isfinite(constant))
+    {
+      evaluate = [constant](const TimePoint &) { return constant; };
+      return;
+    }
     const auto parser = std::make_shared<dealii::FunctionParser<2>>(1);
     parse_expression(
         text, "is no expression of t and T",

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 namespace quoin
 {
@@ -96,9 +97,9 @@ namespace quoin
 
   /**
    * Degrees of freedom that advance_nodes_damped() moves at once; one has its
-   * formulas, too.
+   * formulas, too. @p is_local: there is local damping.
    */
-  template <bool adaptive, int lanes>
+  template <bool adaptive, bool is_local, int lanes>
   struct DampedLanes
   {
     using F     = LaneFunctions<lanes>;
@@ -124,12 +125,16 @@ namespace quoin
       const Value gain = push * inverse_mass;
       const Value keep = m > 0. ? Value{} + decay : Value{} + 1.;
       const Value w    = keep * v0 + gain * (f + viscous);
-      const Value v1   = w
-                       - local_damping_velocity<lanes>(
-                           local * gain * F::absolute(f), v0, w);
-      const Value drag
-          = (m > 0. ? viscous : Value{})
-            + m * (inverse_push * (v1 - w) - 0.5 * mass_damping * (v0 + v1));
+      Value v1{ w }, locally{};
+      if constexpr (is_local)
+      {
+        v1 = w
+             - local_damping_velocity<lanes>(local * gain * F::absolute(f), v0,
+                                             w);
+        locally = inverse_push * (v1 - w);
+      }
+      const Value drag = (m > 0. ? viscous : Value{})
+                         + m * (locally - 0.5 * mass_damping * (v0 + v1));
       before -= drag * v0;
       after -= drag * v1;
       if (adaptive)
@@ -168,51 +173,57 @@ namespace quoin
                        const double *__restrict inverse_mass,
                        const DampingFactors &damping, const double dt)
   {
-    std::size_t i = begin;
-    DampingWork work;
-    if constexpr (dim == 2)
+    const auto advance_with = [&](const auto is_local)
     {
-      constexpr int lanes   = native_lanes;
-      constexpr int n_nodes = lanes / dim;
-      using F               = LaneFunctions<lanes>;
-      using Two
-          = double __attribute__((vector_size(16), aligned(8), may_alias));
-      DampedLanes<adaptive, lanes> several(damping);
-      for (; i + n_nodes <= end; i += n_nodes)
+      std::size_t i = begin;
+      DampingWork work;
+      if constexpr (dim == 2)
       {
-        double *v = &velocity[i][0], *f = &force[i][0];
-        typename F::Value fv{};
-        if (viscous)
+        constexpr int lanes   = native_lanes;
+        constexpr int n_nodes = lanes / dim;
+        using F               = LaneFunctions<lanes>;
+        using Two
+            = double __attribute__((vector_size(16), aligned(8), may_alias));
+        DampedLanes<adaptive, decltype(is_local)::value, lanes> several(
+            damping);
+        for (; i + n_nodes <= end; i += n_nodes)
         {
-          fv = F::load(&viscous[i][0]);
-          F::store(&viscous[i][0], typename F::Value{});
+          double *v = &velocity[i][0], *f = &force[i][0];
+          typename F::Value fv{};
+          if (viscous)
+          {
+            fv = F::load(&viscous[i][0]);
+            F::store(&viscous[i][0], typename F::Value{});
+          }
+          const typename F::Value v1 = several.advance(
+              F::load(v), F::load(f), fv, twice<lanes>(mass + i),
+              twice<lanes>(inverse_mass + i));
+          F::store(v, v1);
+          F::store(f, typename F::Value{});
+          for (int k = 0; k < n_nodes; ++k)
+            *reinterpret_cast<Two *>(&nodes[i + k].u)
+                += dt * Two{ v1[2 * k], v1[2 * k + 1] };
         }
-        const typename F::Value v1 = several.advance(
-            F::load(v), F::load(f), fv, twice<lanes>(mass + i),
-            twice<lanes>(inverse_mass + i));
-        F::store(v, v1);
-        F::store(f, typename F::Value{});
-        for (int k = 0; k < n_nodes; ++k)
-          *reinterpret_cast<Two *>(&nodes[i + k].u)
-              += dt * Two{ v1[2 * k], v1[2 * k + 1] };
+        work = several.work(damping.dt_before, dt);
       }
-      work = several.work(damping.dt_before, dt);
-    }
-    DampedLanes<adaptive, 1> one(damping);
-    for (; i < end; ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double v1 = one.advance(velocity[i][d], force[i][d],
-                                      viscous ? viscous[i][d] : 0., mass[i],
-                                      inverse_mass[i]);
-        velocity[i][d]  = v1;
-        nodes[i].u[d] += dt * v1;
-        force[i][d] = 0.;
-        if (viscous)
-          viscous[i][d] = 0.;
-      }
-    work += one.work(damping.dt_before, dt);
-    return work;
+      DampedLanes<adaptive, decltype(is_local)::value, 1> one(damping);
+      for (; i < end; ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double v1 = one.advance(velocity[i][d], force[i][d],
+                                        viscous ? viscous[i][d] : 0., mass[i],
+                                        inverse_mass[i]);
+          velocity[i][d]  = v1;
+          nodes[i].u[d] += dt * v1;
+          force[i][d] = 0.;
+          if (viscous)
+            viscous[i][d] = 0.;
+        }
+      work += one.work(damping.dt_before, dt);
+      return work;
+    };
+    return damping.local == 0. ? advance_with(std::false_type())
+                               : advance_with(std::true_type());
   }
 } // namespace quoin
 
