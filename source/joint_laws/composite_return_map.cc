@@ -4,6 +4,7 @@
 #include <quoin/joint_laws/composite_return_map.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -141,7 +142,7 @@ namespace quoin
         && (iterate(flow, opens, slips)
             || (opens != slips && iterate(flow, true, true))))
       return flow;
-    return opened();
+    return crush(flow) ? flow : opened();
   }
 
   bool CompositeReturnMap::slide(CompositeFlow &flow) const
@@ -170,6 +171,60 @@ namespace quoin
       flow.bond = bond_start * std::exp(-softening * flow.slip);
     }
     return false;
+  }
+
+  bool CompositeReturnMap::crush(CompositeFlow &flow) const
+  {
+    const CompositeCap &cap = law.cap;
+    const double start      = cap.limit(crushing_start);
+    const double load       = cap.load(sigma_trial, tau_trial);
+    if (!(load > start * start))
+      return false;
+    const double stiffness = 2. * law.normal_stiffness * cap.normal;
+    const double ratio     = 2. * law.shear_stiffness * cap.shear / stiffness;
+    const double centre    = -0.5 * cap.offset / cap.normal;
+    const auto relax_by    = [&](const double y)
+    {
+      flow.sigma          = centre + (sigma_trial - centre) / (1. + y);
+      flow.tau            = tau_trial / (1. + ratio * y);
+      flow.cap            = y / stiffness;
+      const double normal = 2. * cap.normal * flow.sigma + cap.offset;
+      const double shear  = 2. * cap.shear * flow.tau;
+      const double norm   = std::sqrt(normal * normal + shear * shear);
+      flow.crushing       = crushing_start + flow.cap * norm;
+      return std::array<double, 3>{ { normal, shear, norm } };
+    };
+    // If the cap did not harden and its centre were zero.
+    double y         = std::sqrt(load) / start - 1.;
+    bool is_accurate = false;
+    for (unsigned int i = 0; i < 10 && !is_accurate; ++i)
+    {
+      const auto [normal, shear, norm] = relax_by(y);
+      double slope;
+      const double limit  = cap.limit(flow.crushing, slope);
+      const double excess = cap.load(flow.sigma, flow.tau) - limit * limit;
+      // Derivatives by y.
+      const double d_normal = -normal / (1. + y);
+      const double d_shear  = -ratio * shear / (1. + ratio * y);
+      const double d_load
+          = 0.5
+            * (normal * d_normal / cap.normal + shear * d_shear / cap.shear);
+      const double d_norm = (normal * d_normal + shear * d_shear) / norm;
+      const double d_excess
+          = d_load - 2. * limit * slope * (norm + y * d_norm) / stiffness;
+      if (!(d_excess < steepest_softening * d_load))
+        return false;
+      const double step = excess / d_excess;
+      is_accurate       = std::abs(step) <= accurate_step(y);
+      y                 = step < y ? y - step : 0.25 * y;
+    }
+    if (!is_accurate)
+      return false;
+    relax_by(y);
+    flow.opening = flow.slip = 0.;
+    flow.bond                = bond_start;
+    return opening_excess(flow) <= tolerance(0.)
+           && slip_excess(flow) <= tolerance(flow.sigma);
   }
 
   bool CompositeReturnMap::within_cap(const CompositeFlow &flow) const

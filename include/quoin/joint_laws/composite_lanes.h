@@ -5,6 +5,7 @@
 #define quoin_joint_laws_composite_lanes_h
 
 #include <quoin/joint_laws/composite_law.h>
+#include <quoin/joint_laws/composite_return_map.h>
 #include <quoin/joints/joint_lanes.h>
 
 #include <limits>
@@ -87,7 +88,7 @@ namespace quoin
     /** Where the return map takes points, as CompositeFlow. */
     struct Flow
     {
-      Value sigma, tau, opening, slip, bond;
+      Value sigma, tau, opening, slip, bond, cap, crushing;
       Bits found{}; /**< for which this is the answer */
     };
 
@@ -140,6 +141,11 @@ namespace quoin
     /** See CompositeCap::limit(). */
     QUOIN_INLINE Value cap_limit(const Value &crushing) const
     {
+      Value slope;
+      return cap_limit(crushing, slope);
+    }
+    QUOIN_INLINE Value cap_limit(const Value &crushing, Value &slope) const
+    {
       const CompositeCap &cap = law.cap;
       const double first = cap.compression / 3., middle = cap.compression / 2.,
                    last   = cap.compression / 7.;
@@ -147,18 +153,21 @@ namespace quoin
       const double width  = km - cap.peak_crushing;
       const Value rising  = crushing / cap.peak_crushing;
       const Value falling = (crushing - cap.peak_crushing) / width;
+      const double m      = 2. * (middle - cap.compression) / width;
+      const Bits rises    = crushing < cap.peak_crushing;
+      const Value root    = F::square_root(rising * (2. - rising));
       const Value limit
-          = crushing < cap.peak_crushing
-                ? first
-                      + (cap.compression - first)
-                            * F::square_root(rising * (2. - rising))
-                : cap.compression
-                      + (middle - cap.compression) * falling * falling;
+          = rises ? first + (cap.compression - first) * root
+                  : cap.compression
+                        + (middle - cap.compression) * falling * falling;
+      slope = rises ? (cap.compression - first) / cap.peak_crushing
+                          * ((1. - rising) / root)
+                    : m * falling;
       const Bits is_beyond = crushing >= km;
       if (!F::any(is_beyond))
         return limit;
-      const double m    = 2. * (middle - cap.compression) / width;
       const Value decay = F::exponential(m * (crushing - km) / (middle - last));
+      slope             = is_beyond ? m * decay : slope;
       return is_beyond ? last + (middle - last) * decay : limit;
     }
 
@@ -215,6 +224,17 @@ namespace quoin
       lost.fracture += weight
                        * ((flows ? sigma_mean * opened + cohesion_lost : none)
                           - (done ? sigma_mean * closed : none));
+      const Bits crushes = flow.cap > 0.;
+      if (F::any(crushes))
+      {
+        const Value tau_mean = 0.5 * (dot(tau_old, direction) + flow.tau);
+        lost.crushing
+            += weight * flow.cap
+               * (sigma_mean
+                      * (2. * law.cap.normal * sigma_new + law.cap.offset)
+                  + tau_mean * (2. * law.cap.shear) * flow.tau);
+        F::store(points.of(at.internal[crushing]), flow.crushing, crushes);
+      }
 
       const Value crack_new
           = law.cracks_close ? crack_left + opened : crack_left;
@@ -222,10 +242,11 @@ namespace quoin
                           : (flow.opening > 0. ? fill(JointState::open)
                              : flow.slip > 0.  ? fill(JointState::slipping)
                                                : fill(JointState::slipped));
-      state = (intact & (sticks | ~((flow.opening > 0.) | (flow.slip > 0.))))
-                  ? fill(JointState::intact)
-                  : state;
-      state = (closes & (crack_new > 0.)) ? fill(JointState::open) : state;
+      state      = (intact
+               & (sticks | ~((flow.opening > 0.) | (flow.slip > 0.) | crushes)))
+                       ? fill(JointState::intact)
+                       : state;
+      state      = (closes & (crack_new > 0.)) ? fill(JointState::open) : state;
 
       points.sigma = sigma_new;
       points.tau   = tau_new;
@@ -256,14 +277,18 @@ namespace quoin
           = law.cohesion * bond_start - sigma * friction_at(bond_start);
       const Bits opens = sigma > law.tension * bond_start;
       const Bits slips = tau > strength;
-      Flow flow{ sigma, tau, Value{}, Value{}, bond_start };
-      if (law.dilation != 0.)
-        return flow;
-      const Bits slides = asked & slips & ~opens;
-      if (F::any(slides))
-        slide(points, slides, sigma, tau, bond_start, flow);
-      if (F::any(asked & opens))
-        iterate(points, asked & opens, slips, sigma, tau, bond_start, flow);
+      Flow flow{ sigma, tau, Value{}, Value{}, bond_start, Value{}, Value{} };
+      if (law.dilation == 0.)
+      {
+        const Bits slides = asked & slips & ~opens;
+        if (F::any(slides))
+          slide(points, slides, sigma, tau, bond_start, flow);
+        if (F::any(asked & opens))
+          iterate(points, asked & opens, slips, sigma, tau, bond_start, flow);
+      }
+      const Bits left = asked & ~flow.found;
+      if (has_cap && F::any(left))
+        crush(points, left, sigma, tau, bond_start, flow);
       return flow;
     }
 
@@ -310,6 +335,73 @@ namespace quoin
       flow.tau  = found ? left : flow.tau;
       flow.slip = found ? slip : flow.slip;
       flow.bond = found ? bond_now : flow.bond;
+      flow.found |= found;
+    }
+
+    /** See CompositeReturnMap::crush(). */
+    QUOIN_INLINE void crush(const PointLanes<lanes, dim> &points,
+                            const Bits &asked, const Value &sigma_trial,
+                            const Value &tau_trial, const Value &bond_now,
+                            Flow &flow) const
+    {
+      const CompositeCap &cap = law.cap;
+      const Value crushing_start
+          = F::load(points.of(points.arrays.internal[crushing]));
+      const Value start = cap_limit(crushing_start);
+      const Value load  = (cap.normal * sigma_trial + cap.offset) * sigma_trial
+                         + cap.shear * tau_trial * tau_trial;
+      Bits active = asked & (load > start * start);
+      if (!F::any(active))
+        return;
+      const double stiffness = 2. * law.normal_stiffness * cap.normal;
+      const double ratio     = 2. * law.shear_stiffness * cap.shear / stiffness;
+      const double centre    = -0.5 * cap.offset / cap.normal;
+      const Value none{};
+      Value sigma, tau, normal, shear, norm, crushing_now;
+      const auto relax_by = [&](const Value &y) __attribute__((always_inline))
+      {
+        sigma        = centre + (sigma_trial - centre) / (1. + y);
+        tau          = tau_trial / (1. + ratio * y);
+        normal       = 2. * cap.normal * sigma + cap.offset;
+        shear        = 2. * cap.shear * tau;
+        norm         = F::square_root(normal * normal + shear * shear);
+        crushing_now = crushing_start + y / stiffness * norm;
+      };
+      Value y = active ? F::square_root(load) / start - 1. : none;
+      Bits found{};
+      for (unsigned int i = 0; i < 10 && F::any(active); ++i)
+      {
+        relax_by(y);
+        Value slope;
+        const Value limit  = cap_limit(crushing_now, slope);
+        const Value excess = (cap.normal * sigma + cap.offset) * sigma
+                             + cap.shear * tau * tau - limit * limit;
+        const Value d_normal = none - normal / (1. + y);
+        const Value d_shear  = none - ratio * shear / (1. + ratio * y);
+        const Value d_load
+            = 0.5
+              * (normal * d_normal / cap.normal + shear * d_shear / cap.shear);
+        const Value d_norm = (normal * d_normal + shear * d_shear) / norm;
+        const Value d_excess
+            = d_load - 2. * limit * slope * (norm + y * d_norm) / stiffness;
+        active &= d_excess < CompositeReturnMap::steepest_softening * d_load;
+        const Value step = excess / d_excess;
+        const Bits ends
+            = active
+              & (F::absolute(step) <= CompositeReturnMap::accurate_step(y));
+        y = active ? (step < y ? y - step : 0.25 * y) : y;
+        found |= ends;
+        active &= ~ends;
+      }
+      relax_by(y);
+      found &= (sigma - law.tension * bond_now <= tolerance(none))
+               & (tau + sigma * friction_at(bond_now) - law.cohesion * bond_now
+                  <= tolerance(sigma));
+      flow.sigma    = found ? sigma : flow.sigma;
+      flow.tau      = found ? tau : flow.tau;
+      flow.bond     = found ? bond_now : flow.bond;
+      flow.cap      = found ? y / stiffness : flow.cap;
+      flow.crushing = found ? crushing_now : flow.crushing;
       flow.found |= found;
     }
 

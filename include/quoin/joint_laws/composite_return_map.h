@@ -6,6 +6,8 @@
 
 #include <quoin/joint_laws/composite_law.h>
 
+#include <limits>
+
 namespace quoin
 {
   /** End of an increment and its plastic multipliers. */
@@ -25,8 +27,8 @@ namespace quoin
    * given trial tractions [Pa], of shear the size: its direction stays.
    *
    * The usual increment is found by Newton's method for the surfaces that the
-   * trial is beyond, and checked against the others. Failing that, and for all
-   * crushing, the three modes are nested: crushed() returns onto the cap,
+   * trial is beyond, or for crushing alone, and checked against the others.
+   * Failing that the three modes are nested: crushed() returns onto the cap,
    * slipped() seeks the slip for which what crushed() returns is on f2, and
    * opened() the opening for which what slipped() returns is on f1; either of
    * them is zero if that surface is not reached without. Every search has a
@@ -49,6 +51,17 @@ namespace quoin
     /** tan(psi) [-] without pressure, which lowers it. */
     double free_dilation(double bond) const;
 
+    /** Below this share of the slope without softening crush() would have a
+        multiple of its rounding error in the tractions [-]. */
+    static constexpr double steepest_softening = 0.25;
+    /** Step of Newton's method after which crush() has its @p y: what is left
+        is of the order of the square. */
+    template <typename Number>
+    static Number accurate_step(const Number &y)
+    {
+      return 1e-8 * y + 0.25 * std::numeric_limits<double>::epsilon();
+    }
+
     const CompositeLaw &law;
     const double fade; /**< tan(psi) goes with bond^fade */
 
@@ -62,6 +75,13 @@ namespace quoin
 
     /** As iterate(), for slip alone without dilation: one equation. */
     bool slide(CompositeFlow &flow) const;
+
+    /**
+     * Newton's method for f3 = 0 by y = 2 kn Cnn dl3, if the joint crushes
+     * without opening or slip: sigma + Cn/(2 Cnn) falls by 1 + y, tau by
+     * 1 + y ks Css/(kn Cnn). Whether it found what no other surface objects to.
+     */
+    bool crush(CompositeFlow &flow) const;
 
     /** Whether the tractions of @p flow leave the cap as it was. */
     bool within_cap(const CompositeFlow &flow) const;
