@@ -215,8 +215,10 @@ namespace quoin
       if (!(d_excess < steepest_softening * d_load))
         return false;
       const double step = excess / d_excess;
-      is_accurate       = std::abs(step) <= accurate_step(y);
-      y                 = step < y ? y - step : 0.25 * y;
+      is_accurate       = step < y
+                    && step * step * std::max(norm, stiffness * flow.crushing)
+                           <= accurate_step * stiffness * flow.crushing;
+      y = step < y ? y - step : 0.25 * y;
     }
     if (!is_accurate)
       return false;

@@ -28,7 +28,14 @@ namespace quoin
     explicit LawLanes(const CompositeLaw &law)
       : law(law), opening_softening(law.opening_softening()),
         slip_softening(law.slip_softening()),
-        has_cap(std::isfinite(law.cap.compression))
+        has_cap(std::isfinite(law.cap.compression)),
+        peak_rate(1. / law.cap.peak_crushing),
+        width_rate(1. / (law.cap.middle_crushing() - law.cap.peak_crushing)),
+        crush_compliance(0.5 / (law.normal_stiffness * law.cap.normal)),
+        crush_ratio(2. * law.shear_stiffness * law.cap.shear
+                    * crush_compliance),
+        cap_centre(-0.5 * law.cap.offset / law.cap.normal),
+        by_normal(0.5 / law.cap.normal), by_shear(0.5 / law.cap.shear)
     {
     }
 
@@ -150,19 +157,18 @@ namespace quoin
       const double first = cap.compression / 3., middle = cap.compression / 2.,
                    last   = cap.compression / 7.;
       const double km     = cap.middle_crushing();
-      const double width  = km - cap.peak_crushing;
-      const Value rising  = crushing / cap.peak_crushing;
-      const Value falling = (crushing - cap.peak_crushing) / width;
-      const double m      = 2. * (middle - cap.compression) / width;
+      const Value rising  = crushing * peak_rate;
+      const Value falling = (crushing - cap.peak_crushing) * width_rate;
+      const double m      = 2. * (middle - cap.compression) * width_rate;
       const Bits rises    = crushing < cap.peak_crushing;
       const Value root    = F::square_root(rising * (2. - rising));
       const Value limit
           = rises ? first + (cap.compression - first) * root
                   : cap.compression
                         + (middle - cap.compression) * falling * falling;
-      slope = rises ? (cap.compression - first) / cap.peak_crushing
+      slope                = rises ? (cap.compression - first) * peak_rate
                           * ((1. - rising) / root)
-                    : m * falling;
+                                   : m * falling;
       const Bits is_beyond = crushing >= km;
       if (!F::any(is_beyond))
         return limit;
@@ -353,19 +359,18 @@ namespace quoin
       Bits active = asked & (load > start * start);
       if (!F::any(active))
         return;
-      const double stiffness = 2. * law.normal_stiffness * cap.normal;
-      const double ratio     = 2. * law.shear_stiffness * cap.shear / stiffness;
-      const double centre    = -0.5 * cap.offset / cap.normal;
       const Value none{};
-      Value sigma, tau, normal, shear, norm, crushing_now;
+      Value by_sigma, by_tau, sigma, tau, normal, shear, norm, crushing_now;
       const auto relax_by = [&](const Value &y) __attribute__((always_inline))
       {
-        sigma        = centre + (sigma_trial - centre) / (1. + y);
-        tau          = tau_trial / (1. + ratio * y);
+        by_sigma     = 1. / (1. + y);
+        by_tau       = 1. / (1. + crush_ratio * y);
+        sigma        = cap_centre + by_sigma * (sigma_trial - cap_centre);
+        tau          = by_tau * tau_trial;
         normal       = 2. * cap.normal * sigma + cap.offset;
         shear        = 2. * cap.shear * tau;
         norm         = F::square_root(normal * normal + shear * shear);
-        crushing_now = crushing_start + y / stiffness * norm;
+        crushing_now = crushing_start + crush_compliance * y * norm;
       };
       Value y = active ? F::square_root(load) / start - 1. : none;
       Bits found{};
@@ -376,19 +381,20 @@ namespace quoin
         const Value limit  = cap_limit(crushing_now, slope);
         const Value excess = (cap.normal * sigma + cap.offset) * sigma
                              + cap.shear * tau * tau - limit * limit;
-        const Value d_normal = none - normal / (1. + y);
-        const Value d_shear  = none - ratio * shear / (1. + ratio * y);
+        const Value d_normal = none - by_sigma * normal;
+        const Value d_shear  = none - crush_ratio * by_tau * shear;
         const Value d_load
-            = 0.5
-              * (normal * d_normal / cap.normal + shear * d_shear / cap.shear);
+            = by_normal * normal * d_normal + by_shear * shear * d_shear;
         const Value d_norm = (normal * d_normal + shear * d_shear) / norm;
         const Value d_excess
-            = d_load - 2. * limit * slope * (norm + y * d_norm) / stiffness;
+            = d_load
+              - 2. * crush_compliance * limit * slope * (norm + y * d_norm);
         active &= d_excess < CompositeReturnMap::steepest_softening * d_load;
         const Value step = excess / d_excess;
         const Bits ends
-            = active
-              & (F::absolute(step) <= CompositeReturnMap::accurate_step(y));
+            = active & (step < y)
+              & (step * step * F::maximum(crush_compliance * norm, crushing_now)
+                 <= CompositeReturnMap::accurate_step * crushing_now);
         y = active ? (step < y ? y - step : 0.25 * y) : y;
         found |= ends;
         active &= ~ends;
@@ -400,7 +406,7 @@ namespace quoin
       flow.sigma    = found ? sigma : flow.sigma;
       flow.tau      = found ? tau : flow.tau;
       flow.bond     = found ? bond_now : flow.bond;
-      flow.cap      = found ? y / stiffness : flow.cap;
+      flow.cap      = found ? crush_compliance * y : flow.cap;
       flow.crushing = found ? crushing_now : flow.crushing;
       flow.found |= found;
     }
@@ -471,6 +477,11 @@ namespace quoin
     const CompositeLaw law;
     const double opening_softening, slip_softening;
     const bool has_cap;
+    // Of the cap, so that points do not divide by its constants; without a cap
+    // they have no meaning.
+    const double peak_rate, width_rate;                     /**< [1/m] */
+    const double crush_compliance, crush_ratio, cap_centre; /**< see crush() */
+    const double by_normal, by_shear; /**< 1/(2 Cnn), 1/(2 Css) [-] */
   };
 } // namespace quoin
 

@@ -6,8 +6,6 @@
 
 #include <quoin/joint_laws/composite_law.h>
 
-#include <limits>
-
 namespace quoin
 {
   /** End of an increment and its plastic multipliers. */
@@ -54,13 +52,10 @@ namespace quoin
     /** Below this share of the slope without softening crush() would have a
         multiple of its rounding error in the tractions [-]. */
     static constexpr double steepest_softening = 0.25;
-    /** Step of Newton's method after which crush() has its @p y: what is left
-        is of the order of the square. */
-    template <typename Number>
-    static Number accurate_step(const Number &y)
-    {
-      return 1e-8 * y + 0.25 * std::numeric_limits<double>::epsilon();
-    }
+    /** After a step of Newton's method whose square is at most this crush() has
+        its y, as the square is what is left; times 2 kn Cnn k3 / |grad f3| if
+        that is less than 1, where the cap begins to harden. */
+    static constexpr double accurate_step = 1e-17;
 
     const CompositeLaw &law;
     const double fade; /**< tan(psi) goes with bond^fade */
