@@ -202,7 +202,8 @@ namespace quoin
       record.add_factor(factor, controlled, time);
       if (system.explicit_solver)
         record.add_work(factor, loads.pattern->unit_work(state.nodes),
-                        system.solver->energies().damping);
+                        system.solver->energies().damping,
+                        system.solver->energies().kinetic);
     }
     // In equilibrium supports take all. While loads of a stage that ends at
     // rest grow they are none that the model has to bear.

@@ -202,7 +202,7 @@ def collapse(case, folder, output, histories):
         errors["largest factor"] \
             = abs(stage["largest load factor"]["factor"] - wanted) / wanted
     if "largest mean factor" in case:
-        mean = stage["largest load factor"]["mean over a twentieth of the stage"]
+        mean = stage["largest load factor"]["mean without inertia and damping"]
         errors["largest mean factor"] \
             = abs(mean / case["largest mean factor"] - 1)
     low, high = case.get("factor between", (0, float("inf")))

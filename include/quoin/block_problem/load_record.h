@@ -46,8 +46,10 @@ namespace quoin
     /** Adds a row with the @p factor of a load pattern. */
     void add_factor(double factor, double displacement, double time);
     /** Adds to it that the loads with the factor 1 have done @p unit_work, and
-        damping has taken @p damped, both from any reference on [J]. */
-    void add_work(double factor, double unit_work, double damped);
+        damping has taken @p damped, both from any reference on, and the
+        @p kinetic energy [J]. */
+    void add_work(double factor, double unit_work, double damped,
+                  double kinetic);
 
     /** Adds a row at @p time [s]; @p to_means: also to the means, which say
         nothing where a stage seeks an equilibrium and loads pass on the way. */
@@ -63,7 +65,8 @@ namespace quoin
      * balance passes, as its supports take more than is applied, too; so do
      * loads that balance each other. Or that damping took more than 5 % of the
      * work of a load pattern, or that its largest factor is more than 5 % above
-     * the largest mean over a twentieth of the rows. Empty: nothing.
+     * the largest mean over a twentieth of the rows of what neither motion nor
+     * damping took. Empty: nothing.
      */
     std::string warning() const;
 
@@ -78,7 +81,8 @@ namespace quoin
         archive &axis.lowest &axis.highest &axis.most_up &axis.most_down &axis
             .applied &axis.time &axis.size;
       archive &pattern.factor &pattern.unit_work &pattern.damped &pattern
-          .work &pattern.loss &pattern.n_rows;
+          .work &pattern.loss &pattern.kinetic &pattern.speeding &pattern
+          .n_rows;
       archive &path &n_per_place;
       archive &means &sum &n_summed &n_per_mean;
     }
@@ -99,12 +103,12 @@ namespace quoin
       double taken() const;
     };
 
-    /** A load pattern: its last row, and since the first one its work and what
-        damping took [J]. */
+    /** A load pattern: its last row, and since the first one its work, what
+        damping took of it and the change of kinetic energy [J]. */
     struct PatternWork
     {
-      double factor = 0., unit_work = 0., damped = 0.;
-      double work = 0., loss = 0.;
+      double factor = 0., unit_work = 0., damped = 0., kinetic = 0.;
+      double work = 0., loss = 0., speeding = 0.;
       unsigned int n_rows = 0;
     };
 
@@ -133,17 +137,19 @@ namespace quoin
     }
 
     /** The largest mean factor of a load pattern over a twentieth of the rows,
-       in the direction of the largest one: the work by that of the loads with
-       the factor 1. Empty: there are too few rows. */
-    std::optional<double> largest_mean_factor() const;
-    /** Whether the largest factor is far above that. */
+       in the direction of the largest one: the work @p of each place by that of
+       the loads with the factor 1. Empty: there are too few rows. */
+    std::optional<double> largest_mean_factor(unsigned int of) const;
+    /** Whether the largest factor is far above that of the work at rest. */
     bool has_spike() const;
 
     Peak peak;
     PatternWork pattern;
-    /** The work of a load pattern with the factor 1 and its work since the
-       first row [J], in turn, of rows at equal distances. */
+    /** The work of a load pattern with the factor 1, its work since the first
+        row and that without what became kinetic energy or was damped [J], in
+        turn, of rows at equal distances. */
     std::vector<double> path;
+    static constexpr unsigned int n_of_place = 3, work = 1, work_at_rest = 2;
     unsigned int n_per_place = 1; /**< rows from one to the next */
     std::array<Axis, 3> axes;
     /** Means of equally many rows, one after the other, and the sum of the rows

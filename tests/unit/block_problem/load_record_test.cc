@@ -124,7 +124,7 @@ TEST(LoadRecord, WarnsOfATwentiethOfTheWorkThatDampingTakes)
     for (unsigned int i = 0; i <= 10; ++i)
     {
       record.add_factor(2., 0.1 * i, 0.1 * i);
-      record.add_work(2., 7. + 0.1 * i, 3. + 2. * share * 0.1 * i);
+      record.add_work(2., 7. + 0.1 * i, 3. + 2. * share * 0.1 * i, 0.);
     }
     EXPECT_EQ(record.warning().empty(), share < 0.05);
     nlohmann::ordered_json stage;
@@ -144,7 +144,7 @@ TEST(LoadRecord, WarnsOfAFactorThatIsAboveItsMeans)
       const double moved = 1e-6 * i, at_rest = std::min(0.25, 1e3 * moved);
       const double factor = at_rest + (i >= 700 && i < 700 + spike ? 0.05 : 0.);
       record.add_factor(factor, moved, 1e-3 * i);
-      record.add_work(factor, 1e4 * moved, 0.);
+      record.add_work(factor, 1e4 * moved, 0., 0.);
     }
     nlohmann::ordered_json stage;
     record.summarise(stage);
@@ -156,5 +156,34 @@ TEST(LoadRecord, WarnsOfAFactorThatIsAboveItsMeans)
       continue;
     EXPECT_NE(record.warning().find("largest load factor, 0.3 at time 0.7"),
               std::string::npos);
+  }
+}
+
+TEST(LoadRecord, FactorsThatSetTheModelInMotionAreNoResistance)
+{
+  // A mechanism that bears 1 speeds up with a factor of 1.14 for half of the
+  // stage, longer than a mean, and goes on at its velocity, or loses it to
+  // dashpots.
+  for (const bool is_damped : { false, true })
+  {
+    LoadRecord record;
+    for (unsigned int i = 0; i <= 1500; ++i)
+    {
+      const double moved  = 1e-3 * i;
+      const double pushed = std::max(0., std::min(moved, 1.2) - 0.45);
+      const double factor = moved < 0.45  ? moved / 0.45
+                            : moved < 1.2 ? 1.14
+                                          : 1.;
+      const double energy = 0.14 * pushed;
+      record.add_factor(factor, moved, moved);
+      record.add_work(factor, moved, is_damped ? energy : 0.,
+                      is_damped ? 0. : energy);
+    }
+    nlohmann::ordered_json stage;
+    record.summarise(stage);
+    const auto &largest = stage["largest load factor"];
+    EXPECT_NEAR(largest["mean over a twentieth of the stage"], 1.14, 1e-3);
+    EXPECT_NEAR(largest["mean without inertia and damping"], 1., 2e-3);
+    EXPECT_NE(record.warning().find("14"), std::string::npos);
   }
 }
