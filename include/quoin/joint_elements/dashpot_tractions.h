@@ -44,6 +44,41 @@ namespace quoin
   }
 
   /**
+   * @p point after the largest shares of the @p change of the opening, then of
+   * the slip at the @p gap [m] that leave it elastic; as it is if it is not
+   * elastic at the gap.
+   */
+  template <int dim, typename Law>
+  PointOf<Law, dim>
+  within_strength(const Law &law, const PointOf<Law, dim> &point,
+                  const JointVector<dim> &gap, const JointVector<dim> &change)
+  {
+    PointOf<Law, dim> elastic = point;
+    double shares[2]          = { 0., 0. };
+    for (double &share : shares)
+    {
+      const auto bears = [&](const double part)
+      {
+        share                 = part;
+        PointOf<Law, dim> now = point;
+        const bool is_elastic
+            = law.update_elastic(now, gap.normal + shares[0] * change.normal,
+                                 gap.shear + shares[1] * change.shear);
+        if (is_elastic)
+          elastic = now;
+        return is_elastic;
+      };
+      if (bears(1.))
+        continue;
+      double low = 0., high = 1.;
+      while (high - low > 1e-15)
+        (bears(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+      share = low;
+    }
+    return elastic;
+  }
+
+  /**
    * Tractions [Pa] of the dashpots of @p point at the opening and slip @p gap
    * [m], which change at @p rate [m/s]: the tractions that the
    * law has at the gap of @p times_of_now [s] later, at these rates, less those
@@ -52,8 +87,9 @@ namespace quoin
    * the point slips, when its friction follows the pressure at the least. Laws
    * that stiffen are asked sooner, see times_of_springs().
    *
-   * A joint that never failed breaks by its springs alone: beyond its strength
-   * the dashpots rest.
+   * A joint that never failed breaks by its springs alone: if failure takes
+   * strength, springs and dashpots together stay within that of now, normal
+   * first, see within_strength().
    */
   template <int dim, typename Law>
   JointVector<dim>
@@ -72,9 +108,12 @@ namespace quoin
     if (!law.update_elastic(ahead, opening, slip))
     {
       // Rock joints, which stiffen, have no strength to break.
-      if (point.state == JointState::intact && !Law::stiffens)
-        return {};
-      law.update_failing(ahead, opening, slip);
+      if (point.state == JointState::intact && !Law::stiffens
+          && law.loses_strength())
+        ahead = within_strength<dim>(
+            law, point, gap, { opening - gap.normal, slip - gap.shear });
+      else
+        law.update_failing(ahead, opening, slip);
     }
     return { ahead.normal_traction - point.normal_traction,
              ahead.shear_traction - point.shear_traction };

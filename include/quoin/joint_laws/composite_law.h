@@ -159,6 +159,11 @@ namespace quoin
         dilation is not above the friction that is left. */
     CompositeLaw reduced(double factor) const;
 
+    bool loses_strength() const
+    {
+      return tension > 0. || cohesion > 0. || friction != residual_friction;
+    }
+
     /** kn and ks [Pa/m] at the normal traction @p sigma [Pa], and at most. */
     std::array<double, 2> stiffness_at(double /*sigma*/) const
     {

@@ -95,6 +95,12 @@ namespace quoin
     {
       return std::isfinite(peak.tension);
     }
+    bool loses_strength() const
+    {
+      return peak.cohesion != residual.cohesion
+             || peak.friction != residual.friction
+             || peak.tension != residual.tension;
+    }
     bool has_bond() const
     {
       return can_fail() && peak.cohesion > residual.cohesion;

@@ -180,6 +180,11 @@ namespace quoin
     {
       return true;
     }
+    /** Whether failure takes any strength from the joint. */
+    bool loses_strength() const
+    {
+      return true;
+    }
     /** Whether the joint has cohesion that failure takes. */
     bool has_bond() const
     {

@@ -196,8 +196,38 @@ TEST(SpaceDashpots, AJointThatNeverFailedBreaksByItsSpringsAlone)
 {
   Damped blocks(no_tension(), 1);
   blocks.move(-1e-6 * blocks.n, 10. * blocks.n);
-  EXPECT_LT(blocks.on_high(blocks.force) * -blocks.n, 0.);
-  EXPECT_EQ(blocks.on_high(blocks.viscous).norm(), 0.);
+  const Vector pressure = blocks.on_high(blocks.force);
+  EXPECT_GT(pressure * blocks.n, 0.);
+  // together they do not pull, as where it has failed
+  EXPECT_LT((blocks.on_high(blocks.viscous) + pressure).norm(),
+            1e-9 * pressure.norm());
+  for (const JointState state : blocks.history().state)
+    EXPECT_EQ(state, JointState::intact);
+}
+
+TEST(SpaceDashpots, AJointThatNeverFailedIsPulledToItsStrength)
+{
+  CoulombLaw law    = no_tension();
+  law.peak.tension  = 1e4;
+  law.peak.cohesion = 5e4;
+  Damped blocks(law, 1);
+  blocks.move(-1e-6 * blocks.n, 10. * blocks.n);
+  // pressed on the other block, pulled by the joint
+  const Vector pulled
+      = blocks.on_high(blocks.force) + blocks.on_high(blocks.viscous);
+  EXPECT_NEAR(pulled * blocks.n, -law.peak.tension * blocks.area,
+              1e-9 * law.peak.tension * blocks.area);
+  // closing, with more slip than cohesion and friction bear
+  blocks.move(-1e-6 * blocks.n, 10. * blocks.s - 0.01 * blocks.n);
+  const Vector total
+      = blocks.on_high(blocks.force) + blocks.on_high(blocks.viscous);
+  EXPECT_GT(total * blocks.n, blocks.on_high(blocks.force) * blocks.n);
+  EXPECT_NEAR(blocks.shear_of(total).norm(),
+              law.peak.cohesion * blocks.area
+                  + law.peak.friction * (total * blocks.n),
+              1e-6 * blocks.shear_of(total).norm());
+  for (const JointState state : blocks.history().state)
+    EXPECT_EQ(state, JointState::intact);
 }
 
 TEST(SpaceDashpots, FrictionBoundsTheWholeShearByTheWholePressure)
