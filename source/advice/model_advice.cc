@@ -3,6 +3,7 @@
 
 #include <quoin/advice/contact_advice.h>
 #include <quoin/advice/load_advice.h>
+#include <quoin/advice/signal_advice.h>
 #include <quoin/advice/support_advice.h>
 #include <quoin/base/known_names.h>
 #include <quoin/parameters/plausibility.h>
@@ -222,6 +223,25 @@ namespace quoin
       return is_soft;
     }
 
+    /** Whether @p curve is one of the mesh and no joint, although others are
+        made joints by name. Collective. */
+    template <int dim>
+    bool is_left_out(const std::string &curve, const Parameters &parameters,
+                     const NodeMap<dim> &nodes)
+    {
+      const auto &made  = parameters.split.joints_along;
+      const auto &names = nodes.table().face_names;
+      if (made.empty() || is_among(curve, made) || !is_among(curve, names))
+        return false;
+      const auto &joints  = nodes.faces().joints;
+      const bool is_joint = std::any_of(joints.begin(), joints.end(),
+                                        [&](const JointNodes<dim> &joint)
+                                        { return names[joint.name] == curve; });
+      return dealii::Utilities::MPI::max(unsigned(is_joint),
+                                         nodes.communicator())
+             == 0;
+    }
+
     template <int dim>
     void check_joints(const Parameters &parameters, const Model<dim> &model,
                       Advice &advice)
@@ -249,6 +269,14 @@ namespace quoin
                                 : "surfaces: they act on nothing. Name these",
                        " in 'Joints along' of section 'Mesh', or remove the "
                        "set.");
+        if (beside.exist && !is_for_later(set, parameters.stages))
+          for (const std::string &curve : set.curves)
+            checks.warn_if(is_left_out(curve, parameters, model.nodes()),
+                           "there are none on its ",
+                           dim == 2 ? "curve " : "surface ", curve,
+                           ", which is missing in 'Joints along' of section "
+                           "'Mesh': what lies beside it is one block. Name it "
+                           "there, or leave it out here.");
         // Where a block is in doubt it is said of the block.
         if (!beside.exist || beside.softest < softest_modulus)
           continue;
@@ -433,6 +461,7 @@ namespace quoin
     check_stress_at_rest(parameters, model, state, advice);
     check_forgotten_loads(parameters, advice);
     check_pressures(parameters, model.nodes(), advice);
+    check_signals(parameters, dim, advice);
     check_materials(parameters, model, advice);
     check_joints(parameters, model, advice);
     if (!parameters.is_implicit)

@@ -167,10 +167,29 @@ namespace quoin
                      cure);
     }
 
+    /** Warns of mass-proportional damping of what stands on moving ground. */
+    void check_mass_damping(const StageOfRun &run, Checks &checks)
+    {
+      if (run.stage.damping != DampingType::rayleigh
+          || run.stage.mass_coefficient == 0.
+          || run.stage.end != StageEnd::time)
+        return;
+      const PrescribedShaking shaking = find_shaking(run);
+      checks.warn_if(
+          !shaking.load.empty(), "the load ", shaking.load,
+          " shakes the model, and 'Rayleigh mass coefficient' resists the "
+          "velocity in space, that of the ground included: it drives what "
+          "stands on it, with ",
+          run.stage.mass_coefficient,
+          " times the velocity of the ground as acceleration. Take 'Rayleigh "
+          "stiffness coefficient' or a 'Restitution' of joints instead.");
+    }
+
     void check_damping(const StageOfRun &run, Checks &checks)
     {
       const StageParameters &stage = run.stage;
-      const bool is_of_equilibria  = stage.damping == DampingType::local
+      check_mass_damping(run, checks);
+      const bool is_of_equilibria = stage.damping == DampingType::local
                                     || stage.damping == DampingType::adaptive;
       checks.warn_if(
           stage.end == StageEnd::time && is_of_equilibria && brings_waves(run),

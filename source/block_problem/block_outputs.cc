@@ -69,6 +69,7 @@ namespace quoin
              system.parameters.field_format),
       boundary(run.output, MPI_COMM_SELF, system.parameters.field_format)
   {
+    run.log.messages(all_histories.moved_points());
     if (system.solver->loads().far.elastodynamic)
       far_field_table = &run.tables.add(
           "far_field.csv",

@@ -328,13 +328,25 @@ namespace quoin
 
   std::string CompositeLaw::warning() const
   {
+    /** Closure that no mortar bears before its strength [m]. */
+    constexpr double most_closure = 5e-3;
+    if (std::isfinite(cap.compression) && cap.peak_crushing > most_closure)
+      return "'Peak crushing', the plastic closure at the compressive "
+             "strength, is far more than usual: in mm it would be "
+             + number_text(1e-3 * cap.peak_crushing)
+             + " m. The joint crushes long before that. Check the unit.";
     if (softens_gently(*this))
       return "";
+    const double steepest_cap
+        = cap.compression / (cap.middle_crushing() - cap.peak_crushing);
     return "the joint drops by itself at failure and does not dissipate its "
            "fracture energies. 'Normal stiffness' should be above ft^2 / GfI = "
-           + number_text(tension * tension / tension_energy)
-           + " Pa/m and above the slope of the cap, 'Shear stiffness' above "
-             "c^2 / GfII = "
+           + number_text(tension * tension / tension_energy) + " Pa/m"
+           + (std::isinf(cap.compression)
+                  ? std::string()
+                  : " and above the slope of the cap, "
+                        + number_text(steepest_cap) + " Pa/m")
+           + ", 'Shear stiffness' above c^2 / GfII = "
            + number_text(cohesion * cohesion / shear_energy) + " Pa/m.";
   }
 

@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
+#include <quoin/base/number_text.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/reinforcement/bar_results.h>
 #include <quoin/results/point_values.h>
@@ -65,6 +66,40 @@ namespace quoin
       names.push_back(probes[i].parameters.name + " ["
                       + probes[i].parameters.unit + "]");
     return names;
+  }
+
+  template <int dim>
+  std::vector<std::string> Histories<dim>::moved_points() const
+  {
+    /** Distance that is rounding, by the size of coordinates [-]. */
+    constexpr double rounding = 1e-6;
+    std::vector<std::string> lines;
+    for (unsigned int i = 0; i < n_columns; ++i)
+    {
+      const HistoryParameters &wanted = probes[i].parameters;
+      if (wanted.quantity != HistoryQuantity::displacement
+          && wanted.quantity != HistoryQuantity::velocity)
+        continue;
+      double distance = 0., size = 0.;
+      std::string place;
+      std::array<double, dim> node{};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        node[d] = dealii::Utilities::MPI::sum(
+            probes[i].at.here ? model.nodes().point(probes[i].at.entity)[d]
+                              : 0.,
+            communicator);
+        distance = std::hypot(distance, node[d] - wanted.point[d]);
+        size     = std::max(size, std::abs(node[d]));
+        place += (d == 0 ? "" : ", ") + number_text(node[d]);
+      }
+      if (distance > rounding * size)
+        lines.push_back("history " + wanted.name
+                        + ": the motion of the node at (" + place
+                        + "), the nearest to its 'Point', "
+                        + number_text(distance) + " m away");
+    }
+    return lines;
   }
 
   template <int dim>

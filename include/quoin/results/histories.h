@@ -50,6 +50,10 @@ namespace quoin
     /** "time [s]" and "name [unit]" of each column. */
     std::vector<std::string> column_names() const;
 
+    /** A line for each history of the motion of a point that is no node: that
+        of the nearest node is recorded; collective. */
+    std::vector<std::string> moved_points() const;
+
     /** The histories of points in @p block; collective. */
     std::vector<std::string> names_in(unsigned int block) const;
 

@@ -127,9 +127,88 @@ TEST(InputAdvice, LocalDampingOfWavesThatComeIn)
   Parameters parameters                      = good_parameters();
   parameters.loads[1].type                   = LoadType::viscous_boundary;
   parameters.loads[1].components[0].quantity = LoadQuantity::velocity;
+  const auto wave                            = [&](const std::string &velocity)
+  { parameters.loads[1].components[0].value = TimeFunction(velocity, "./"); };
+  wave("1e3 * sin(pi*t)");
+  expect(parameters, "particle velocity comes to 1000 m/s");
+  wave("sin(pi*t)");
   EXPECT_EQ(advice(parameters), "");
   parameters.stages[0] = stage_with({ "base", "push" }, DampingType::local);
   expect(parameters, "waves come in");
+}
+
+TEST(InputAdvice, GravityThatBeginsAnewOrTwice)
+{
+  for (const std::string weight :
+       { "-9.81 * min(1, t / 0.5)", "-9.81 * min(1, T / 0.5)", "-9.81" })
+  {
+    Parameters parameters = good_parameters();
+    parameters.loads.push_back(gravity("", weight));
+    parameters.stages[0].name = "settle";
+    parameters.stages[0].loads.push_back("gravity");
+    parameters.stages.push_back(parameters.stages[0]);
+    parameters.stages[1].name = "shake";
+    const std::string text    = advice(parameters);
+    EXPECT_EQ(text.find("stage shake: the load gravity begins anew at 0 m/s^2, "
+                        "after -9.81 in stage settle")
+                  != std::string::npos,
+              weight == "-9.81 * min(1, t / 0.5)")
+        << text;
+  }
+  Parameters parameters = good_parameters();
+  parameters.stages[0].loads.push_back("gravity");
+  parameters.stages[0].loads.push_back("other");
+  for (const std::string name : { "gravity", "other" })
+  {
+    parameters.loads.push_back(gravity("", "-9.81"));
+    parameters.loads.back().name = name;
+  }
+  EXPECT_NE(advice(parameters).find("the loads gravity and other are the same"),
+            std::string::npos);
+  parameters.loads.back() = gravity("9.81", "");
+  EXPECT_EQ(advice(parameters).find("are the same"), std::string::npos);
+}
+
+TEST(InputAdvice, RecordsThatEndInMotion)
+{
+  Parameters parameters = good_parameters();
+  const auto ends       = [&](const std::string &velocity)
+  {
+    parameters.loads[0] = motion("base", "bottom", velocity, "0");
+    return advice(parameters).find("stays at ") != std::string::npos;
+  };
+  EXPECT_TRUE(ends("if(t < 0.6, sin(2*pi*t), 0.1)"));
+  EXPECT_FALSE(ends("if(t < 0.5, sin(4*pi*t), 0)"));
+  EXPECT_FALSE(ends("min(1, t / 0.1)"));
+  EXPECT_FALSE(ends("0"));
+}
+
+TEST(InputAdvice, MassProportionalDampingOnMovingGround)
+{
+  Parameters parameters = good_parameters();
+  parameters.loads[0]   = motion("base", "bottom", "sin(4*pi*t)", "0");
+  const auto is_warned  = [&]()
+  {
+    return advice(parameters).find("'Rayleigh mass coefficient' resists")
+           != std::string::npos;
+  };
+  parameters.stages[0].damping               = DampingType::rayleigh;
+  parameters.stages[0].stiffness_coefficient = 1e-5;
+  EXPECT_FALSE(is_warned());
+  parameters.stages[0].mass_coefficient = 3.;
+  EXPECT_TRUE(is_warned());
+  parameters.loads[0] = motion("base", "bottom", "0", "0");
+  EXPECT_FALSE(is_warned());
+}
+
+TEST(InputAdvice, RowsFartherApartThanTheRun)
+{
+  Parameters parameters = good_parameters();
+  parameters.histories.emplace_back();
+  parameters.history_interval = 0.5;
+  EXPECT_EQ(advice(parameters), "");
+  parameters.history_interval = 2.;
+  expect(parameters, "is longer than the run");
 }
 
 TEST(InputAdvice, WhatTakesAStagesMotionAway)

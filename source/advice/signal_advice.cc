@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/advice/signal_advice.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Acceleration that is a weight [m/s^2]. */
+    constexpr double least_weight = 1.;
+    /** Samples of a stage. */
+    constexpr unsigned int n_samples = 2049;
+
+    bool acts_on_all(const LoadParameters &load)
+    {
+      return load.type == LoadType::gravity && load.groups.empty()
+             && !load.distribution;
+    }
+
+    /** Where stage @p index starts, and where it ends or, if it ends at rest,
+        a time at which ramps are over [s]. */
+    std::array<TimePoint, 2> bounds_of(const Parameters &parameters,
+                                       const unsigned int index)
+    {
+      constexpr double at_rest     = 1e3;
+      const StageParameters &stage = parameters.stages[index];
+      const double start           = start_of_stage(parameters.stages, index);
+      const double end = stage.end == StageEnd::time ? stage.duration : at_rest;
+      return { { { 0., start }, { end, start + end } } };
+    }
+
+    /** Warns of gravity that begins anew as a stage begins. */
+    void check_begun_anew(const Parameters &parameters,
+                          const LoadParameters &load, const unsigned int index,
+                          Checks &checks)
+    {
+      const StageParameters *before = previous_stage(parameters.stages, index);
+      if (!before || !names_load(*before, load.name))
+        return;
+      const TimePoint last
+          = bounds_of(parameters, before - parameters.stages.data())[1];
+      const TimePoint first = bounds_of(parameters, index)[0];
+      for (const auto &given : load.given_components())
+      {
+        const double end   = given.component.value(last),
+                     start = given.component.value(first);
+        checks.warn_if(
+            std::abs(end) > least_weight
+                && std::abs(start) < 0.5 * std::abs(end),
+            "the load ", load.name, " begins anew at ", start + 0.,
+            " m/s^2, after ", end, " in stage ", before->name,
+            ": its weight is lost at once, as t is the time in the stage. "
+            "Write T, the time of the run, or name another load here.");
+      }
+    }
+
+    /** Warns of all blocks weighing twice. */
+    void check_twice(const Parameters &parameters, const unsigned int index,
+                     Checks &checks)
+    {
+      const TimePoint end = bounds_of(parameters, index)[1];
+      std::map<std::string, std::pair<const LoadParameters *, double>> known;
+      for (const LoadParameters &load : parameters.loads)
+      {
+        if (!acts_on_all(load)
+            || !names_load(parameters.stages[index], load.name))
+          continue;
+        for (const auto &given : load.given_components())
+        {
+          const double value = given.component.value(end);
+          if (std::abs(value) < least_weight)
+            continue;
+          const auto [other, is_new]
+              = known.try_emplace(given.name, &load, value);
+          const auto &[first, first_value] = other->second;
+          // What shakes or pushes beside weight has another value.
+          checks.warn_if(
+              !is_new && std::abs(first_value - value) < 0.02 * std::abs(value),
+              "the loads ", first->name, " and ", load.name,
+              " are the same gravity on all blocks, which weigh twice. Leave "
+              "one of them out.");
+        }
+      }
+    }
+
+    /** Warns of records of velocity that end in motion. */
+    void check_end_of_record(const LoadParameters &load,
+                             const StageParameters &stage, const double start,
+                             Checks &checks)
+    {
+      if (load.type != LoadType::prescribed_motion
+          && load.type != LoadType::platen)
+        return;
+      for (const auto &given : load.given_components())
+      {
+        if (given.component.quantity != LoadQuantity::velocity
+            || given.component.field || given.name.rfind("rotation", 0) == 0)
+          continue;
+        const double duration = stage.duration;
+        std::vector<double> values(n_samples);
+        for (unsigned int i = 0; i < n_samples; ++i)
+        {
+          const double t = duration * i / (n_samples - 1);
+          values[i]      = given.component.value({ t, start + t });
+        }
+        const auto [low, high]
+            = std::minmax_element(values.begin(), values.end());
+        const double last = values.back(), range = *high - *low;
+        // What moves one way alone is no record of shaking.
+        if (range == 0. || *low > -0.05 * range || *high < 0.05 * range
+            || std::abs(last) < 2e-3 * range)
+          continue;
+        const auto held
+            = std::find_if(values.rbegin(), values.rend(),
+                           [&](const double v) { return v != last; });
+        const std::ptrdiff_t n = held - values.rbegin();
+        checks.warn_if(n > n_samples / 50, "the ", given.name, " of the load ",
+                       load.name, " stays at ", last, " m/s from ",
+                       duration * (1. - double(n - 1) / (n_samples - 1)),
+                       " s on, so that what it holds moves on by ",
+                       last * duration * double(n - 1) / (n_samples - 1),
+                       " m. Let the record end at rest: correct its baseline, "
+                       "or give it a "
+                       "last line with a velocity of 0.");
+      }
+    }
+
+    /** Warns of @p velocity [m/s] of a wave that no rock survives. */
+    void check_velocity(const double velocity, const std::string &of,
+                        Advice &advice)
+    {
+      constexpr double most = 20.;
+      Checks(advice, of)
+          .warn_if(velocity > most, "its particle velocity comes to ", velocity,
+                   " m/s, far more than blasts and earthquakes bring. In mm/s "
+                   "it would "
+                   "be ",
+                   1e-3 * velocity, " m/s. Check the unit.");
+    }
+
+    void check_waves(const Parameters &parameters, Advice &advice)
+    {
+      const double end
+          = start_of_stage(parameters.stages, parameters.stages.size());
+      if (!(end > 0.))
+        return;
+      const auto largest = [&](const auto &value)
+      {
+        double most = 0.;
+        for (unsigned int i = 0; i < n_samples; ++i)
+          most = std::max(most, std::abs(value(end * i / (n_samples - 1))));
+        return most;
+      };
+      for (const IncidentWaveParameters &wave : parameters.boundary.waves)
+        if (wave.n_integrations == 1 && wave.signal.value
+            && wave.type != IncidentWaveType::line_source)
+          check_velocity(std::abs(wave.amplitude) * largest(wave.signal.value),
+                         "incident wave " + wave.name + ": ", advice);
+      for (const LoadParameters &load : parameters.loads)
+        if (load.type == LoadType::viscous_boundary)
+          for (const auto &given : load.given_components())
+            if (given.component.quantity == LoadQuantity::velocity
+                && !given.component.field)
+              check_velocity(largest(
+                                 [&](const double t) {
+                                   return given.component.value({ t, t });
+                                 }),
+                             "load " + load.name + ": ", advice);
+    }
+  } // namespace
+
+  void check_signals(const Parameters &parameters, const unsigned int dim,
+                     Advice &advice)
+  {
+    bool all_by_time = !parameters.stages.empty();
+    for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+    {
+      const StageParameters &stage = parameters.stages[i];
+      const double start           = start_of_stage(parameters.stages, i);
+      Checks checks(advice, "stage " + stage.name + ": ");
+      for (const LoadParameters &load : parameters.loads)
+      {
+        if (!names_load(stage, load.name))
+          continue;
+        if (load.type == LoadType::gravity)
+          check_begun_anew(parameters, load, i, checks);
+        if (stage.end == StageEnd::time)
+          check_end_of_record(load, stage, start, checks);
+      }
+      check_twice(parameters, i, checks);
+      all_by_time = all_by_time && stage.end == StageEnd::time;
+    }
+    check_waves(parameters, advice);
+    const double end
+        = start_of_stage(parameters.stages, parameters.stages.size());
+    Checks(advice, "'Interval = ")
+        .warn_if(all_by_time && !parameters.histories.empty()
+                     && parameters.history_interval > end,
+                 parameters.history_interval,
+                 "' in section 'Histories' is longer than the run, ", end,
+                 " s: histories.csv has its first and last rows alone.");
+    if (dim == 3)
+      for (const LoadParameters &load : parameters.loads)
+      {
+        if (load.type != LoadType::gravity)
+          continue;
+        for (const auto &given : load.given_components())
+          Checks(advice, "load " + load.name + ": ")
+              .warn_if(
+                  given.name == "lateral"
+                      && std::abs(given.component.value({ 0., 0. }) + 9.81)
+                             < 0.05,
+                  "gravity acts along y. In three dimensions z is upwards: "
+                  "give 'Vertical' instead of 'Lateral', unless that is "
+                  "meant.");
+      }
+  }
+} // namespace quoin
