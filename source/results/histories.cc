@@ -69,6 +69,19 @@ namespace quoin
   }
 
   template <int dim>
+  dealii::Point<dim> Histories<dim>::place_of(const Probe &probe) const
+  {
+    std::vector<double> sum(dim, 0.);
+    for (const auto &[node, weight] : probe.at.nodes)
+      for (unsigned int d = 0; d < dim; ++d)
+        sum[d] += weight * model.nodes().point(node)[d];
+    dealii::Utilities::MPI::sum(sum, communicator, sum);
+    dealii::Point<dim> result;
+    std::copy(sum.begin(), sum.end(), result.begin_raw());
+    return result;
+  }
+
+  template <int dim>
   std::vector<std::string> Histories<dim>::moved_points() const
   {
     /** Distance that is rounding, by the size of coordinates [-]. */
@@ -80,15 +93,11 @@ namespace quoin
       if (wanted.quantity != HistoryQuantity::displacement
           && wanted.quantity != HistoryQuantity::velocity)
         continue;
+      const dealii::Point<dim> node = place_of(probes[i]);
       double distance = 0., size = 0.;
       std::string place;
-      std::array<double, dim> node{};
       for (unsigned int d = 0; d < dim; ++d)
       {
-        node[d] = dealii::Utilities::MPI::sum(
-            probes[i].at.here ? model.nodes().point(probes[i].at.entity)[d]
-                              : 0.,
-            communicator);
         distance = std::hypot(distance, node[d] - wanted.point[d]);
         size     = std::max(size, std::abs(node[d]));
         place += (d == 0 ? "" : ", ") + number_text(node[d]);
@@ -138,9 +147,7 @@ namespace quoin
         end.parameters.component = d;
         end.parameters.point     = point;
         locate(end);
-        end.coordinate = dealii::Utilities::MPI::sum(
-            end.at.here ? model.nodes().point(end.at.entity)[d] : 0.,
-            communicator);
+        end.coordinate = place_of(end)[d];
         probes.push_back(end);
       }
   }
@@ -368,8 +375,8 @@ namespace quoin
     const unsigned int d = found->parameters.component;
     const auto add       = [&](const Probe &probe, const double weight)
     {
-      if (probe.at.here)
-        terms.push_back({ probe.at.entity, d, weight });
+      for (const auto &[node, part] : probe.at.nodes)
+        terms.push_back({ node, d, weight * part });
     };
     if (!is_of_two)
       add(*found, 1.);
@@ -409,7 +416,7 @@ namespace quoin
     for (unsigned int i = 0; i < probes.size(); ++i)
     {
       const Probe &probe = probes[i];
-      if (probe.at.here)
+      if (probe.at.here || !probe.at.nodes.empty())
         row[1 + i] = point_value(model, probe.parameters, probe.at, state);
       else if (probe.platen
                && probe.parameters.quantity
@@ -503,7 +510,7 @@ namespace quoin
       const Probe &probe = probes[i];
       // The velocity at the full step is the mean of those at half steps; joint
       // tractions were updated in the step.
-      if (probe.at.here
+      if (!probe.at.nodes.empty()
           && probe.parameters.quantity == HistoryQuantity::velocity)
         row[1 + i]
             = 0.5

@@ -235,12 +235,13 @@ namespace quoin
       };
       entries.other(
           "Point", "0, 0",
-          "Point x, y and, in three dimensions, z whose nearest node, cell, "
-          "joint point or boundary element is recorded; with boundary elements "
-          "alone it is the point in the domain, or the reference point of "
-          "moments. Of several nodes at one place, the node of the block that "
-          "contains the point is taken, or else that of the lower or left "
-          "block [m]",
+          "Point x, y and, in three dimensions, z. Displacement and velocity "
+          "are interpolated there; outside of all blocks they are those of the "
+          "nearest node, as the screen then says. Other quantities are those "
+          "of the nearest cell, joint point or boundary element; with boundary "
+          "elements alone it is the point in the domain, or the reference "
+          "point of moments. Where blocks meet, the block that contains the "
+          "point is taken, or else the lower or left one [m]",
           [&](const ParameterSection &from)
           { history.point_has_z = read_point(from, "Point", history.point); });
       if (entries.reads_if(history.is_of_two_points()))

@@ -178,6 +178,107 @@ namespace quoin
               [&] { return places.at(nodes.block_of_node(i)); }, farther(i));
     }
 
+    /** Whether @p key is the least of all ranks, on the first rank that has it:
+        several may have the same joint. Collective. */
+    template <typename Key>
+    bool is_least(const Key &key, const MPI_Comm communicator)
+    {
+      namespace MPI = dealii::Utilities::MPI;
+      bool here     = true;
+      for (const double part : key)
+      {
+        const double least = MPI::min(
+            here ? part : std::numeric_limits<double>::max(), communicator);
+        here = here && part == least;
+      }
+      const unsigned int rank = MPI::this_mpi_process(communicator);
+      return rank == MPI::min(here ? rank : 1U << 30, communicator);
+    }
+
+    /**
+     * Weights of the corners of @p cell at @p point: its volume with the point
+     * in place of the corner, by its own.
+     */
+    template <int dim>
+    std::array<double, dim + 1> weights(const NodeMap<dim> &nodes,
+                                        const unsigned int cell,
+                                        const dealii::Point<dim> &point)
+    {
+      std::array<double, dim + 1> result;
+      const auto own = corners(nodes, cell);
+      for (unsigned int k = 0; k <= dim; ++k)
+      {
+        auto with_point = own;
+        with_point[k]   = point;
+        result[k]       = size<dim>(with_point) / size<dim>(own);
+      }
+      return result;
+    }
+
+    /**
+     * The node of @p at, the nearest of all ranks, in which block it may be and
+     * how far from the point; then the cells that contain the point, those of
+     * that block first. Sets the nodes of @p at. Collective.
+     */
+    template <int dim>
+    void find_host(const Model<dim> &model,
+                   const std::vector<bool> &absent_in_the_end,
+                   const Nearest<dim> &node, HistoryPoint &at)
+    {
+      /** Distance that is rounding, by the size of coordinates [-]. */
+      constexpr double rounding   = 1e-9;
+      const NodeMap<dim> &nodes   = model.nodes();
+      namespace MPI               = dealii::Utilities::MPI;
+      const MPI_Comm communicator = nodes.communicator();
+      const double distance    = std::sqrt(MPI::min(node.key[0], communicator));
+      const unsigned int block = MPI::max(
+          at.here ? nodes.block_of_node(at.entity) : 0U, communicator);
+      Nearest<dim> host(node.point);
+      if (distance > rounding * node.point.norm())
+        for (unsigned int c = 0; c < nodes.cells().size(); ++c)
+        {
+          const auto part = weights(nodes, c, node.point);
+          if (*std::min_element(part.begin(), part.end()) < -rounding)
+            continue;
+          const unsigned int own = nodes.blocks().block_of_cell(c);
+          dealii::Point<dim> centroid;
+          for (const auto &corner : corners(nodes, c))
+            centroid += corner / (dim + 1.);
+          // In place of a distance: whether blocks stay, then which is it.
+          const double last
+              = absent_in_the_end[nodes.table().group[own]] ? 2. : 0.;
+          host.consider(
+              node.point, c, [&] { return Nearest<dim>::place(0., centroid); },
+              last + (own == block ? 0. : 1.));
+        }
+      if (MPI::min(host.key[0], communicator) == Nearest<dim>::none)
+      {
+        if (at.here)
+          at.nodes = { { at.entity, 1. } };
+        return;
+      }
+      at.here = is_least(host.key, communicator);
+      // Corners of the cell and their weights, for the ranks that own them.
+      std::vector<double> all(2 * (dim + 1), 0.);
+      if (at.here)
+      {
+        const auto &own = nodes.cells().nodes[host.entity];
+        const auto part = weights(nodes, host.entity, node.point);
+        for (unsigned int k = 0; k <= dim; ++k)
+        {
+          all[2 * k]     = nodes.exchange().global(own[k]);
+          all[2 * k + 1] = part[k];
+        }
+        at.entity = own[0];
+      }
+      MPI::sum(all, communicator, all);
+      for (unsigned int k = 0; k <= dim; ++k)
+        if (const auto global = static_cast<unsigned int>(all[2 * k]);
+            nodes.exchange().owns(global))
+          at.nodes.push_back(
+              { nodes.exchange().local(global), all[2 * k + 1] });
+    }
+
     template <int dim>
     void consider_cells(const Model<dim> &model, Nearest<dim> &nearest)
     {
@@ -237,23 +338,15 @@ namespace quoin
     }
 
     /** Whether the nearest point, of those with the @p key of each rank, is on
-        this rank. */
+        this rank, for a history @p wanted. */
     template <int dim>
     bool is_owner(const NodeMap<dim> &nodes, const HistoryParameters &wanted,
                   const typename Nearest<dim>::Key &key)
     {
       const MPI_Comm communicator = nodes.communicator();
       const std::string section   = "section 'Histories/" + wanted.name + "': ";
-      // The least key of all ranks; several ranks may have the same joint.
-      bool here            = true;
       const double nearest = dealii::Utilities::MPI::min(key[0], communicator);
-      for (const double part : key)
-      {
-        const double least = dealii::Utilities::MPI::min(
-            here ? part : Nearest<dim>::none, communicator);
-        here = here && part == least;
-      }
-      double longest = 0.;
+      double longest       = 0.;
       for (const auto &cell : nodes.cells().nodes)
         for (unsigned int k = 0; k <= dim; ++k)
           for (unsigned int l = 0; l < k; ++l)
@@ -280,11 +373,7 @@ namespace quoin
                                 ? std::string("such point")
                                 : "joint on a curve '" + wanted.curve + "'")
                          + " in the model. Correct 'Curve' or 'Quantity'.");
-      const unsigned int rank
-          = dealii::Utilities::MPI::this_mpi_process(communicator);
-      return rank
-             == dealii::Utilities::MPI::min(here ? rank : 1U << 30,
-                                            communicator);
+      return is_least(key, communicator);
     }
   } // namespace
 
@@ -309,8 +398,12 @@ namespace quoin
     default:
       consider_cells(model, nearest);
     }
-    const bool here = is_owner(model.nodes(), wanted, nearest.key);
-    return { nearest.entity, here };
+    HistoryPoint result
+        = { nearest.entity, is_owner(model.nodes(), wanted, nearest.key) };
+    if (wanted.quantity == HistoryQuantity::displacement
+        || wanted.quantity == HistoryQuantity::velocity)
+      find_host(model, absent_in_the_end, nearest, result);
+    return result;
   }
 
   template HistoryPoint find_history_point(const Model<2> &,

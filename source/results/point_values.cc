@@ -115,13 +115,12 @@ namespace quoin
                                       const HistoryParameters &wanted,
                                       const HistoryPoint &point)
   {
+    if (!point.nodes.empty())
+      return { model.nodes().block_of_node(point.nodes.front().first) };
     if (!point.here)
       return {};
     switch (wanted.quantity)
     {
-    case HistoryQuantity::displacement:
-    case HistoryQuantity::velocity:
-      return { model.nodes().block_of_node(point.entity) };
     case HistoryQuantity::stress:
     case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
@@ -158,9 +157,16 @@ namespace quoin
     switch (wanted.quantity)
     {
     case HistoryQuantity::displacement:
-      return state.nodes[point.entity].u[wanted.component];
     case HistoryQuantity::velocity:
-      return state.velocity[point.entity][wanted.component];
+    {
+      double sum = 0.;
+      for (const auto &[node, weight] : point.nodes)
+        sum += weight
+               * (wanted.quantity == HistoryQuantity::displacement
+                      ? state.nodes[node].u[wanted.component]
+                      : state.velocity[node][wanted.component]);
+      return sum;
+    }
     case HistoryQuantity::stress:
     case HistoryQuantity::principal_stress:
     {

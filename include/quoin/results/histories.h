@@ -50,8 +50,8 @@ namespace quoin
     /** "time [s]" and "name [unit]" of each column. */
     std::vector<std::string> column_names() const;
 
-    /** A line for each history of the motion of a point that is no node: that
-        of the nearest node is recorded; collective. */
+    /** A line for each history of the motion of a point that lies outside of
+        all blocks: that of the nearest node is recorded; collective. */
     std::vector<std::string> moved_points() const;
 
     /** The histories of points in @p block; collective. */
@@ -92,7 +92,7 @@ namespace quoin
     {
       HistoryParameters parameters;
       HistoryPoint at; /**< nowhere: a quantity of something else */
-      /** Coordinate of an end's node in the mesh [m]. */
+      /** Coordinate of an end in the mesh [m]. */
       double coordinate = 0.;
       unsigned int ends = 0; /**< first probe of the ends, for two points */
       const MotionConstraint<dim> *platen = nullptr;
@@ -101,6 +101,8 @@ namespace quoin
     };
 
     void locate(Probe &probe) const;
+    /** Where the mesh has the motion that @p probe records [m]; collective. */
+    dealii::Point<dim> place_of(const Probe &probe) const;
     /** Adds probes of the displacements of both points of a @p column. */
     void add_ends(unsigned int column);
     /** The value of a quantity of two points, from the displacements of both in

@@ -7,6 +7,7 @@
 #include <quoin/model/model.h>
 #include <quoin/results/history_parameters.h>
 
+#include <utility>
 #include <vector>
 
 namespace quoin
@@ -16,14 +17,20 @@ namespace quoin
   {
     unsigned int entity = 0;     /**< local node, cell or joint point */
     bool here           = false; /**< whether this rank records it */
+    /** Of displacements and velocities: the nodes that this rank owns, of those
+        that the value is interpolated from, and their weights [-]. */
+    std::vector<std::pair<unsigned int, double>> nodes = {};
   };
 
   /**
-   * The node, cell or joint point of all ranks that is nearest to the point of
-   * @p wanted, a history of one of these. @p absent_in_the_end: whether each
-   * physical surface is absent in the end; its nodes are chosen last among
-   * those at the same position. Throws an InputError if the point is far from
-   * the model or there is no such joint. Collective.
+   * The joint point or the cell of all ranks that is nearest to the point of
+   * @p wanted, a history of one of these. Displacements and velocities are
+   * interpolated in the cell that contains the point, linearly, which is exact
+   * in rigid blocks; outside of all cells they are those of the nearest node.
+   * @p absent_in_the_end: whether each physical surface is absent in the end;
+   * its nodes and cells are chosen last among those at the same position.
+   * Throws an InputError if the point is far from the model or there is no such
+   * joint. Collective.
    */
   template <int dim>
   HistoryPoint find_history_point(const Model<dim> &model,

@@ -103,20 +103,45 @@ TEST(Histories, QuantitiesOfTwoPointsFollowTheMotionOfBoth)
     node.u[0] = c * node.X[0] - s * node.X[1] - node.X[0] + 0.3;
     node.u[1] = s * node.X[0] + c * node.X[1] - node.X[1] - 7.;
   }
-  const std::array<double, 3> a = { { 0., 0., 0. } }, b = { { 3., 4., 0. } };
-  const auto row = row_of(
-      { history(Q::relative_displacement, 0, a, b),
-        history(Q::relative_displacement, 1, a, b), history(Q::tilt, 0, a, b),
-        history(Q::distance_change, 0, a, b), history(Q::tilt, 0, b, a),
-        history(Q::displacement, 1, a) },
-      run);
-  ASSERT_EQ(row.size(), 7U);
-  EXPECT_NEAR(row[1], 3. * c - 4. * s - 3., 1e-14);
-  EXPECT_NEAR(row[2], 3. * s + 4. * c - 4., 1e-14);
-  EXPECT_NEAR(row[3], 30., 1e-13);
-  EXPECT_NEAR(row[4], 1., 1e-14);
-  EXPECT_NEAR(row[5], 30., 1e-13);
-  EXPECT_NEAR(row[6], -7., 1e-15);
+  // Between nodes, on both sides of the joint, and there.
+  for (const double part : { 0.45, 1. })
+  {
+    const double x = part < 1. ? 0.3 : 0., y = part < 1. ? 0.55 : 0.;
+    const std::array<double, 3> a = { { x, y, 0. } },
+                                b = { { x + 3. * part, y + 4. * part, 0. } };
+    const auto row                = row_of(
+                       { history(Q::relative_displacement, 0, a, b),
+                         history(Q::relative_displacement, 1, a, b), history(Q::tilt, 0, a, b),
+                         history(Q::distance_change, 0, a, b), history(Q::tilt, 0, b, a),
+                         history(Q::displacement, 1, a) },
+                       run);
+    ASSERT_EQ(row.size(), 7U);
+    EXPECT_NEAR(row[1], part * (3. * c - 4. * s - 3.), 1e-14);
+    EXPECT_NEAR(row[2], part * (3. * s + 4. * c - 4.), 1e-14);
+    EXPECT_NEAR(row[3], 30., 1e-13);
+    EXPECT_NEAR(row[4], part, 1e-14);
+    EXPECT_NEAR(row[5], 30., 1e-13);
+    EXPECT_NEAR(row[6], s * x + c * y - y - 7., 1e-14);
+  }
+}
+
+TEST(Histories, PointsOutsideOfBlocksAreNamed)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}));
+  for (const double x : { 0.25, -0.25 })
+  {
+    const Histories<2> histories({ velocity_at(x, 1.), velocity_at(3., 0.) },
+                                 run.model, run.solver, BoundaryGeometry(),
+                                 BoundaryElementParameters(), { false, false });
+    const auto lines = histories.moved_points();
+    ASSERT_EQ(lines.size(), x < 0. ? 1U : 0U);
+    if (x < 0.)
+      EXPECT_EQ(lines[0], "history v: the motion of the node at (0, 1), the "
+                          "nearest to its 'Point', 0.25 m away");
+  }
 }
 
 TEST(Histories, LengthOfOpenJoints)
