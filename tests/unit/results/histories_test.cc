@@ -138,9 +138,10 @@ TEST(Histories, PointsOutsideOfBlocksAreNamed)
                                  BoundaryElementParameters(), { false, false });
     const auto lines = histories.moved_points();
     ASSERT_EQ(lines.size(), x < 0. ? 1U : 0U);
-    if (x < 0.)
-      EXPECT_EQ(lines[0], "history v: the motion of the node at (0, 1), the "
-                          "nearest to its 'Point', 0.25 m away");
+    if (lines.empty())
+      continue;
+    EXPECT_EQ(lines[0], "history v: the motion of the node at (0, 1), the "
+                        "nearest to its 'Point', 0.25 m away");
   }
 }
 
