@@ -25,16 +25,15 @@ namespace quoin
              && !load.distribution;
     }
 
-    /** Where stage @p index starts, and where it ends or, if it ends at rest,
-        a time at which ramps are over [s]. */
-    std::array<TimePoint, 2> bounds_of(const Parameters &parameters,
-                                       const unsigned int index)
+    /** The end of stage @p index or, if it ends at rest, a time at which ramps
+        are over [s]. */
+    TimePoint end_of(const Parameters &parameters, const unsigned int index)
     {
       constexpr double at_rest     = 1e3;
       const StageParameters &stage = parameters.stages[index];
       const double start           = start_of_stage(parameters.stages, index);
       const double end = stage.end == StageEnd::time ? stage.duration : at_rest;
-      return { { { 0., start }, { end, start + end } } };
+      return { end, start + end };
     }
 
     /** Warns of gravity that begins anew as a stage begins. */
@@ -46,10 +45,13 @@ namespace quoin
       if (!before || !names_load(*before, load.name))
         return;
       const TimePoint last
-          = bounds_of(parameters, before - parameters.stages.data())[1];
-      const TimePoint first = bounds_of(parameters, index)[0];
+          = end_of(parameters, before - parameters.stages.data());
+      // T goes on where the stage before has ended, whenever that was.
+      const TimePoint first{ 0., last.total };
       for (const auto &given : load.given_components())
       {
+        if (given.component.field)
+          continue;
         const double end   = given.component.value(last),
                      start = given.component.value(first);
         checks.warn_if(
@@ -66,7 +68,7 @@ namespace quoin
     void check_twice(const Parameters &parameters, const unsigned int index,
                      Checks &checks)
     {
-      const TimePoint end = bounds_of(parameters, index)[1];
+      const TimePoint end = end_of(parameters, index);
       std::map<std::string, std::pair<const LoadParameters *, double>> known;
       for (const LoadParameters &load : parameters.loads)
       {
@@ -75,7 +77,8 @@ namespace quoin
           continue;
         for (const auto &given : load.given_components())
         {
-          const double value = given.component.value(end);
+          const double value
+              = given.component.field ? 0. : given.component.value(end);
           if (std::abs(value) < least_weight)
             continue;
           const auto [other, is_new]
@@ -114,9 +117,13 @@ namespace quoin
         const auto [low, high]
             = std::minmax_element(values.begin(), values.end());
         const double last = values.back(), range = *high - *low;
-        // What moves one way alone is no record of shaking.
+        double jump = 0.;
+        for (unsigned int i = 0; i + 1 < n_samples; ++i)
+          jump = std::max(jump, std::abs(values[i + 1] - values[i]));
+        // What moves one way alone, or is reversed at once as in cyclic
+        // loading, is no record of shaking.
         if (range == 0. || *low > -0.05 * range || *high < 0.05 * range
-            || std::abs(last) < 2e-3 * range)
+            || std::abs(last) < 2e-3 * range || jump > 0.3 * range)
           continue;
         const auto held
             = std::find_if(values.rbegin(), values.rend(),
@@ -202,7 +209,8 @@ namespace quoin
     const double end
         = start_of_stage(parameters.stages, parameters.stages.size());
     Checks(advice, "'Interval = ")
-        .warn_if(all_by_time && !parameters.histories.empty()
+        .warn_if(all_by_time && !parameters.is_implicit
+                     && !parameters.histories.empty()
                      && parameters.history_interval > end,
                  parameters.history_interval,
                  "' in section 'Histories' is longer than the run, ", end,

@@ -61,7 +61,7 @@ namespace quoin
       pattern.work
           += 0.5 * (pattern.factor + factor) * (unit_work - pattern.unit_work);
       pattern.loss += damped - pattern.damped;
-      pattern.speeding += kinetic - pattern.kinetic;
+      pattern.kinetic_gain += kinetic - pattern.kinetic;
     }
     pattern.factor    = factor;
     pattern.unit_work = unit_work;
@@ -71,7 +71,7 @@ namespace quoin
       return;
     path.push_back(unit_work);
     path.push_back(pattern.work);
-    path.push_back(pattern.work - pattern.loss - pattern.speeding);
+    path.push_back(pattern.work - pattern.loss - pattern.kinetic_gain);
     if (path.size() < n_of_place * most_places)
       return;
     keep_every_second(n_of_place, path);
@@ -79,7 +79,7 @@ namespace quoin
   }
 
   std::optional<double>
-  LoadRecord::largest_mean_factor(const unsigned int of) const
+  LoadRecord::largest_mean_factor(const unsigned int column) const
   {
     const std::size_t n     = path.size() / n_of_place;
     const std::size_t width = n / n_path_windows;
@@ -93,18 +93,27 @@ namespace quoin
     {
       const double *first = &path[n_of_place * i];
       const double *last  = &path[n_of_place * (i + width)];
-      const double way = last[0] - first[0], work = last[of] - first[of];
-      if (std::abs(way) > least
-          && (!largest || sign * work / way > sign * *largest))
-        largest = work / way;
+      const double way    = last[0] - first[0];
+      if (!(std::abs(way) > least))
+        continue;
+      double mean = (last[column] - first[column]) / way;
+      // Kinetic energy that a window begins with is no resistance either.
+      if (column == work_at_rest)
+        mean
+            = sign
+              * std::min(sign * mean,
+                         sign * (last[work_of_all] - first[work_of_all]) / way);
+      if (!largest || sign * mean > sign * *largest)
+        largest = mean;
     }
     return largest;
   }
 
   bool LoadRecord::has_spike() const
   {
-    const auto mean = largest_mean_factor(work_at_rest);
-    return mean && std::abs(peak.factor) > (1. + most_excess) * std::abs(*mean);
+    const auto mean   = largest_mean_factor(work_at_rest);
+    const double sign = peak.factor < 0. ? -1. : 1.;
+    return mean && sign * peak.factor > (1. + most_excess) * sign * *mean;
   }
 
   void LoadRecord::add_forces(const ForceBalance &forces, const double time,
@@ -231,8 +240,9 @@ namespace quoin
           " % above ", *largest_mean_factor(work_at_rest),
           ", the largest mean over a twentieth of the stage of what motion and "
           "damping did not take: unless strength is lost as quickly, the model "
-          "bore the rest by inertia, as it vibrates, jumps or sets parts in "
-          "motion that the control does not hold. That mean is nearer to what "
+          "bore the rest by inertia or damping, as it vibrates, jumps or sets "
+          "parts in motion that the control does not hold. That mean is nearer "
+          "to what "
           "it bears at rest; push more slowly and compare.");
     return text;
   }
@@ -244,7 +254,7 @@ namespace quoin
           = { { "factor", peak.factor },
               { "controlled displacement [m]", peak.displacement },
               { "time [s]", peak.time } };
-    if (const auto mean = largest_mean_factor(work))
+    if (const auto mean = largest_mean_factor(work_of_all))
       stage["largest load factor"]["mean over a twentieth of the stage"]
           = *mean;
     if (const auto mean = largest_mean_factor(work_at_rest))

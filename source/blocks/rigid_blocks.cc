@@ -166,7 +166,6 @@ namespace quoin
   namespace
   {
     /** x and y of a node at once, which compilers do not find by themselves. */
-    using Two = double __attribute__((vector_size(16), aligned(8), may_alias));
     const Two &two(const double &first)
     {
       return *reinterpret_cast<const Two *>(&first);

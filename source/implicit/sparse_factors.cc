@@ -221,7 +221,7 @@ namespace quoin
     auto &upper = node.upper;
     for (int k = begin; k < begin + size; ++k)
     {
-      // What the columns before do to this one.
+      // Updates by the columns before in the block.
       auto column = lower.col(k);
       for (int j = begin + 1; j < k; ++j)
         column[j] -= lower.row(j).segment(begin, j - begin)

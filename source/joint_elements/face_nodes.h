@@ -152,8 +152,6 @@ namespace quoin
   private:
     static QUOIN_INLINE void add(char *to, const Row &row)
     {
-      using Two
-          = double __attribute__((vector_size(16), aligned(8), may_alias));
       double *f = reinterpret_cast<double *>(to);
       *reinterpret_cast<Two *>(f) += __builtin_shufflevector(row, row, 0, 1);
       f[2] += row[2];

@@ -223,14 +223,12 @@ namespace quoin
   bool softens_gently(const CompositeLaw &law, const double sigma)
   {
     const CompositeCap &cap = law.cap;
-    const double steepest_cap
-        = cap.compression / (cap.middle_crushing() - cap.peak_crushing);
     const double loss
         = law.cohesion - sigma * (law.friction - law.residual_friction);
     return law.normal_stiffness > law.tension * law.opening_softening()
            && law.shear_stiffness > loss * law.slip_softening()
            && (std::isinf(cap.compression)
-               || law.normal_stiffness > steepest_cap);
+               || law.normal_stiffness > cap.steepest());
   }
 
   CompositeLaw CompositeLaw::read(LawEntries &entries)
@@ -337,15 +335,13 @@ namespace quoin
              + " m. The joint crushes long before that. Check the unit.";
     if (softens_gently(*this))
       return "";
-    const double steepest_cap
-        = cap.compression / (cap.middle_crushing() - cap.peak_crushing);
     return "the joint drops by itself at failure and does not dissipate its "
            "fracture energies. 'Normal stiffness' should be above ft^2 / GfI = "
            + number_text(tension * tension / tension_energy) + " Pa/m"
            + (std::isinf(cap.compression)
                   ? std::string()
                   : " and above the slope of the cap, "
-                        + number_text(steepest_cap) + " Pa/m")
+                        + number_text(cap.steepest()) + " Pa/m")
            + ", 'Shear stiffness' above c^2 / GfII = "
            + number_text(cohesion * cohesion / shear_energy) + " Pa/m.";
   }

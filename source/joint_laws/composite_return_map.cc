@@ -194,7 +194,8 @@ namespace quoin
       flow.crushing       = crushing_start + flow.cap * norm;
       return std::array<double, 3>{ { normal, shear, norm } };
     };
-    // If the cap did not harden and its centre were zero.
+    // First guess, right if the cap does not harden, its centre is zero and
+    // ks Css = kn Cnn.
     double y         = std::sqrt(load) / start - 1.;
     bool is_accurate = false;
     for (unsigned int i = 0; i < 10 && !is_accurate; ++i)

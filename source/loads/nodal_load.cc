@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
+#include <quoin/base/lanes.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/loads/joint_crack.h>
 #include <quoin/loads/load_field.h>
@@ -47,15 +48,13 @@ namespace quoin
     template <int dim>
     struct WeightedVelocities
     {
-      using Pair
-          = double __attribute__((vector_size(16), aligned(8), may_alias));
 
-      Pair xy{};
+      Two xy{};
       double z = 0.;
 
       void add(const double weight, const dealii::Tensor<1, dim> &velocity)
       {
-        xy += weight * reinterpret_cast<const Pair &>(velocity);
+        xy += weight * reinterpret_cast<const Two &>(velocity);
         if constexpr (dim == 3)
           z += weight * velocity[2];
       }

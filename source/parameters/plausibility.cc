@@ -140,7 +140,8 @@ namespace quoin
     const Range wall_lengths[]
         = { { "Unit length", 0.02, 10., "m", meant_length },
             { "Unit height", 0.01, 5., "m", meant_length },
-            { "Length", 0.05, 500., "m", meant_length } };
+            { "Length", 0.05, 500., "m", meant_length },
+            { "Thickness", 0.01, 20., "m", meant_length } };
 
     /** Ranges of values in all sections of a kind. */
     struct KindOfSection
@@ -185,6 +186,24 @@ namespace quoin
                   values[0] < range.low ? " is far less" : " is far more",
                   " than usual", meant.empty() ? "" : ": ", meant,
                   ". Check the unit."));
+    }
+
+    /** Adds a warning if the dip of @p section, which is called @p where, looks
+        like one in radians: hardly any set dips by so little and no round
+        number. */
+    void check_dip(const ParameterSection &section, const std::string &where,
+                   std::vector<std::string> &warnings)
+    {
+      const auto values = finite_numbers({ section.text("Dip") });
+      if (values.size() != 1)
+        return;
+      const double dip = std::abs(values[0]), rounded = std::round(2. * dip);
+      if (dip > 0.05 && dip < 0.5 * constants::pi && rounded != 2. * dip)
+        warnings.push_back(text_of(where, "'Dip = ", values[0],
+                                   "' degrees is nearly level: in radians it "
+                                   "would be ",
+                                   values[0] / constants::degree,
+                                   " degrees. Check the unit."));
     }
 
     /** Times at the start, in the middle and at the end of the stages in which
@@ -342,6 +361,13 @@ namespace quoin
         for (const Range &range : kind.ranges)
           check(ParameterSection(section, name), kind.what + " " + name + ": ",
                 range, warnings);
+    }
+    for (const char *kind : { "Rock joints", "Rock joint sets" })
+    {
+      const ParameterSection section(top, kind);
+      for (const std::string &name : section.list("Names"))
+        check_dip(ParameterSection(section, name), "joint set " + name + ": ",
+                  warnings);
     }
     if (parameters.generated.name == "wall")
     {

@@ -84,29 +84,33 @@ namespace quoin
   template <int dim>
   std::vector<std::string> Histories<dim>::moved_points() const
   {
-    /** Distance that is rounding, by the size of coordinates [-]. */
-    constexpr double rounding = 1e-6;
     std::vector<std::string> lines;
-    for (unsigned int i = 0; i < n_columns; ++i)
+    const auto add = [&](const Probe &probe, const char *const entry)
     {
-      const HistoryParameters &wanted = probes[i].parameters;
-      if (wanted.quantity != HistoryQuantity::displacement
-          && wanted.quantity != HistoryQuantity::velocity)
-        continue;
-      const dealii::Point<dim> node = place_of(probes[i]);
-      double distance = 0., size = 0.;
+      if (probe.at.is_inside)
+        return;
+      const dealii::Point<dim> node = place_of(probe);
+      double square                 = 0.;
       std::string place;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        distance = std::hypot(distance, node[d] - wanted.point[d]);
-        size     = std::max(size, std::abs(node[d]));
+        square += std::pow(node[d] - probe.parameters.point[d], 2);
         place += (d == 0 ? "" : ", ") + number_text(node[d]);
       }
-      if (distance > rounding * size)
-        lines.push_back("history " + wanted.name
-                        + ": the motion of the node at (" + place
-                        + "), the nearest to its 'Point', "
-                        + number_text(distance) + " m away");
+      lines.push_back("history " + probe.parameters.name
+                      + ": the motion of the node at (" + place
+                      + "), the nearest to its " + entry
+                      + ", which lies outside of all blocks, "
+                      + number_text(std::sqrt(square)) + " m away");
+    };
+    for (unsigned int i = 0; i < n_columns; ++i)
+    {
+      add(probes[i], "'Point'");
+      if (const unsigned int ends = probes[i].ends; ends > 0)
+      {
+        add(probes[ends], "'Point'");
+        add(probes[ends + dim], "'Second point'");
+      }
     }
     return lines;
   }
@@ -536,7 +540,7 @@ namespace quoin
           row[1 + i] = joint_force(probes[i], state);
     const double time          = row[0];
     std::vector<double> result = row;
-    // All ranks have platen displacements, one rank has a point.
+    // All ranks have platen displacements; of points each has its part.
     for (unsigned int i = 0; i < probes.size(); ++i)
       if (probes[i].platen
           && dealii::Utilities::MPI::this_mpi_process(communicator) != 0)

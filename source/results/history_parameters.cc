@@ -213,7 +213,8 @@ namespace quoin
           "velocities and tractions are the means over their last completed "
           "step, and 0 before the first stage with 'End = time' in which they "
           "act. With 'Model = boundary elements', displacements and velocities "
-          "are those in the domain. 'boundary hoop stress' is the normal "
+          "are those in the domain, velocities the means over the step before "
+          "the row, half a step late. 'boundary hoop stress' is the normal "
           "stress along the boundary, 'boundary force' the force on the "
           "domain.");
       const Kind &kind  = kinds().at(quantity);

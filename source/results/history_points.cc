@@ -92,18 +92,57 @@ namespace quoin
       return result;
     }
 
+    /**
+     * Weights of the corners of @p cell at @p point: its volume with the point
+     * in place of the corner, by its own.
+     */
     template <int dim>
-    bool contains(const NodeMap<dim> &nodes, const unsigned int cell,
-                  const dealii::Point<dim> &point)
+    std::array<double, dim + 1> weights(const NodeMap<dim> &nodes,
+                                        const unsigned int cell,
+                                        const dealii::Point<dim> &point)
     {
+      std::array<double, dim + 1> result;
+      const auto own = corners(nodes, cell);
       for (unsigned int k = 0; k <= dim; ++k)
       {
-        auto with_point = corners(nodes, cell);
+        auto with_point = own;
         with_point[k]   = point;
-        if (size<dim>(with_point) < 0.)
-          return false;
+        result[k]       = size<dim>(with_point) / size<dim>(own);
       }
-      return true;
+      return result;
+    }
+
+    /** By how much @p point lies outside of @p cell, in weights of corners [-]:
+        0 in it or within rounding on its boundary, infinity beyond @p most. */
+    template <int dim>
+    double outside(const NodeMap<dim> &nodes, const unsigned int cell,
+                   const dealii::Point<dim> &point, const double most = 0.)
+    {
+      // By the box first, beyond which most cells are.
+      const auto own  = corners(nodes, cell);
+      double rounding = 0., smallest = std::numeric_limits<double>::max();
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        double low = own[0][d], high = low;
+        for (const auto &corner : own)
+        {
+          low  = std::min(low, corner[d]);
+          high = std::max(high, corner[d]);
+        }
+        const double error = 1e-9 * (high - low)
+                             + 16. * std::numeric_limits<double>::epsilon()
+                                   * std::max(std::abs(low), std::abs(high));
+        const double margin = error + dim * most * (high - low);
+        if (point[d] < low - margin || point[d] > high + margin)
+          return std::numeric_limits<double>::infinity();
+        rounding = std::max(rounding, error);
+        smallest = std::min(smallest, high - low);
+      }
+      const auto part    = weights(nodes, cell, point);
+      const double least = *std::min_element(part.begin(), part.end());
+      return least >= -rounding / smallest ? 0.
+             : least >= -most              ? -least
+                              : std::numeric_limits<double>::infinity();
     }
 
     /** What of the nodes at the least distance says which comes first: of their
@@ -120,7 +159,7 @@ namespace quoin
       {
         const auto &[begin, end] = nodes.blocks().parts[part].cells;
         for (unsigned int c = begin; c < end; ++c)
-          if (contains(nodes, c, point))
+          if (outside(nodes, c, point) == 0.)
             inside = 1;
       }
       // Sum of positions, and how many there are.
@@ -196,29 +235,11 @@ namespace quoin
     }
 
     /**
-     * Weights of the corners of @p cell at @p point: its volume with the point
-     * in place of the corner, by its own.
-     */
-    template <int dim>
-    std::array<double, dim + 1> weights(const NodeMap<dim> &nodes,
-                                        const unsigned int cell,
-                                        const dealii::Point<dim> &point)
-    {
-      std::array<double, dim + 1> result;
-      const auto own = corners(nodes, cell);
-      for (unsigned int k = 0; k <= dim; ++k)
-      {
-        auto with_point = own;
-        with_point[k]   = point;
-        result[k]       = size<dim>(with_point) / size<dim>(own);
-      }
-      return result;
-    }
-
-    /**
-     * The node of @p at, the nearest of all ranks, in which block it may be and
-     * how far from the point; then the cells that contain the point, those of
-     * that block first. Sets the nodes of @p at. Collective.
+     * Sets the nodes of @p at: the corners of the cell that contains the point
+     * in the block of the nearest node, that of @p node, or there nearly does,
+     * as walls of excavations are curved and coordinates rounded; else of one
+     * in another block, those that are not absent in the end first; or the
+     * nearest node. Collective.
      */
     template <int dim>
     void find_host(const Model<dim> &model,
@@ -226,41 +247,45 @@ namespace quoin
                    const Nearest<dim> &node, HistoryPoint &at)
     {
       /** Distance that is rounding, by the size of coordinates [-]. */
-      constexpr double rounding   = 1e-9;
-      const NodeMap<dim> &nodes   = model.nodes();
-      namespace MPI               = dealii::Utilities::MPI;
-      const MPI_Comm communicator = nodes.communicator();
+      constexpr double rounding = 1e-12;
+      /** By how much a point may lie outside of a cell whose motion it has [-].
+       */
+      constexpr double most_outside = 0.1;
+      namespace MPI                 = dealii::Utilities::MPI;
+      const NodeMap<dim> &nodes     = model.nodes();
+      const MPI_Comm communicator   = nodes.communicator();
       const double distance    = std::sqrt(MPI::min(node.key[0], communicator));
+      const bool is_at_node    = distance <= rounding * node.point.norm();
       const unsigned int block = MPI::max(
-          at.here ? nodes.block_of_node(at.entity) : 0U, communicator);
+          at.here ? nodes.block_of_node(node.entity) : 0U, communicator);
       Nearest<dim> host(node.point);
-      if (distance > rounding * node.point.norm())
-        for (unsigned int c = 0; c < nodes.cells().size(); ++c)
-        {
-          const auto part = weights(nodes, c, node.point);
-          if (*std::min_element(part.begin(), part.end()) < -rounding)
-            continue;
-          const unsigned int own = nodes.blocks().block_of_cell(c);
-          dealii::Point<dim> centroid;
-          for (const auto &corner : corners(nodes, c))
-            centroid += corner / (dim + 1.);
-          // In place of a distance: whether blocks stay, then which is it.
-          const double last
-              = absent_in_the_end[nodes.table().group[own]] ? 2. : 0.;
-          host.consider(
-              node.point, c, [&] { return Nearest<dim>::place(0., centroid); },
-              last + (own == block ? 0. : 1.));
-        }
+      for (unsigned int c = 0; c < nodes.cells().size() && !is_at_node; ++c)
+      {
+        const unsigned int own = nodes.blocks().block_of_cell(c);
+        const double beyond
+            = outside(nodes, c, node.point, own == block ? most_outside : 0.);
+        if (std::isinf(beyond))
+          continue;
+        dealii::Point<dim> centroid;
+        for (const auto &corner : corners(nodes, c))
+          centroid += corner / (dim + 1.);
+        // In place of a distance.
+        const double last
+            = absent_in_the_end[nodes.table().group[own]] ? 1. : 0.;
+        host.consider(
+            node.point, c, [&] { return Nearest<dim>::place(0., centroid); },
+            own == block ? beyond : 1. + last);
+      }
       if (MPI::min(host.key[0], communicator) == Nearest<dim>::none)
       {
+        at.is_inside = is_at_node;
         if (at.here)
-          at.nodes = { { at.entity, 1. } };
+          at.nodes = { { node.entity, 1. } };
         return;
       }
-      at.here = is_least(host.key, communicator);
       // Corners of the cell and their weights, for the ranks that own them.
       std::vector<double> all(2 * (dim + 1), 0.);
-      if (at.here)
+      if (is_least(host.key, communicator))
       {
         const auto &own = nodes.cells().nodes[host.entity];
         const auto part = weights(nodes, host.entity, node.point);
@@ -269,7 +294,6 @@ namespace quoin
           all[2 * k]     = nodes.exchange().global(own[k]);
           all[2 * k + 1] = part[k];
         }
-        at.entity = own[0];
       }
       MPI::sum(all, communicator, all);
       for (unsigned int k = 0; k <= dim; ++k)

@@ -212,9 +212,22 @@ namespace quoin
       cut(rock, s, box);
     }
     if (box.blocks.n_blocks() == 1)
+    {
+      double longest = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        longest = std::max(longest, rock.high[d] - rock.low[d]);
+      if (rock.shortest_edge > 0.5 * longest)
+        throw InputError("section 'Rock box': no plane can cut the rock, as "
+                         "'Shortest edge', by default a share of 'Element "
+                         "size', is "
+                         + number_text(rock.shortest_edge)
+                         + " m, and the longest edge of the rock "
+                         + number_text(longest)
+                         + " m. Check the unit of both.");
       throw InputError("No plane of section 'Rock joint sets' cuts the rock: "
                        "take a smaller 'Spacing', a larger 'Persistence' or an "
                        "'Origin' in the box.");
+    }
     return box;
   }
 

@@ -10,9 +10,9 @@ namespace quoin
 {
   /**
    * Warns of functions of time that hardly mean what they say: gravity that
-   * begins anew in a later stage or acts twice, records of velocity that end in
-   * motion, incident waves in mm/s, and rows of histories that are farther
-   * apart than the run is long. @p dim: 2 or 3.
+   * begins anew in a later stage, acts twice or along y, records of velocity
+   * that end in motion, incident waves in mm/s, and rows of histories that are
+   * farther apart than the run is long. @p dim: 2 or 3.
    */
   void check_signals(const Parameters &parameters, unsigned int dim,
                      Advice &advice);

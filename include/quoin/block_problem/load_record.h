@@ -81,7 +81,7 @@ namespace quoin
         archive &axis.lowest &axis.highest &axis.most_up &axis.most_down &axis
             .applied &axis.time &axis.size;
       archive &pattern.factor &pattern.unit_work &pattern.damped &pattern
-          .work &pattern.loss &pattern.kinetic &pattern.speeding &pattern
+          .work &pattern.loss &pattern.kinetic &pattern.kinetic_gain &pattern
           .n_rows;
       archive &path &n_per_place;
       archive &means &sum &n_summed &n_per_mean;
@@ -108,7 +108,7 @@ namespace quoin
     struct PatternWork
     {
       double factor = 0., unit_work = 0., damped = 0., kinetic = 0.;
-      double work = 0., loss = 0., speeding = 0.;
+      double work = 0., loss = 0., kinetic_gain = 0.;
       unsigned int n_rows = 0;
     };
 
@@ -137,9 +137,9 @@ namespace quoin
     }
 
     /** The largest mean factor of a load pattern over a twentieth of the rows,
-       in the direction of the largest one: the work @p of each place by that of
-       the loads with the factor 1. Empty: there are too few rows. */
-    std::optional<double> largest_mean_factor(unsigned int of) const;
+       in the direction of the largest one: the work of @p column of the path by
+       that of the loads with the factor 1. Empty: there are too few rows. */
+    std::optional<double> largest_mean_factor(unsigned int column) const;
     /** Whether the largest factor is far above that of the work at rest. */
     bool has_spike() const;
 
@@ -149,7 +149,8 @@ namespace quoin
         row and that without what became kinetic energy or was damped [J], in
         turn, of rows at equal distances. */
     std::vector<double> path;
-    static constexpr unsigned int n_of_place = 3, work = 1, work_at_rest = 2;
+    static constexpr unsigned int n_of_place = 3, work_of_all = 1,
+                                  work_at_rest = 2;
     unsigned int n_per_place = 1; /**< rows from one to the next */
     std::array<Axis, 3> axes;
     /** Means of equally many rows, one after the other, and the sum of the rows

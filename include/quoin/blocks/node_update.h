@@ -30,17 +30,16 @@ namespace quoin
                             const double dt_velocity, const double dt)
   {
     // x and y at once: compilers do not vectorise this by themselves.
-    using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
     for (std::size_t i = begin; i < end; ++i)
     {
-      Pair &f           = *reinterpret_cast<Pair *>(&force[i]);
-      Pair &v           = *reinterpret_cast<Pair *>(&velocity[i]);
-      Pair &u           = *reinterpret_cast<Pair *>(&nodes[i].u);
+      Two &f            = *reinterpret_cast<Two *>(&force[i]);
+      Two &v            = *reinterpret_cast<Two *>(&velocity[i]);
+      Two &u            = *reinterpret_cast<Two *>(&nodes[i].u);
       const double gain = inverse_mass[i] * dt_velocity;
-      const Pair w      = v + gain * f;
+      const Two w       = v + gain * f;
       v                 = w;
       u += dt * w;
-      f = Pair{};
+      f = Two{};
       if constexpr (dim == 3)
       {
         const double wz = velocity[i][2] + gain * force[i][2];
@@ -125,16 +124,16 @@ namespace quoin
       const Value gain = push * inverse_mass;
       const Value keep = m > 0. ? Value{} + decay : Value{} + 1.;
       const Value w    = keep * v0 + gain * (f + viscous);
-      Value v1{ w }, locally{};
+      Value v1{ w }, local_drag{};
       if constexpr (is_local)
       {
         v1 = w
              - local_damping_velocity<lanes>(local * gain * F::absolute(f), v0,
                                              w);
-        locally = inverse_push * (v1 - w);
+        local_drag = inverse_push * (v1 - w);
       }
       const Value drag = (m > 0. ? viscous : Value{})
-                         + m * (locally - 0.5 * mass_damping * (v0 + v1));
+                         + m * (local_drag - 0.5 * mass_damping * (v0 + v1));
       before -= drag * v0;
       after -= drag * v1;
       if (adaptive)
@@ -182,8 +181,6 @@ namespace quoin
         constexpr int lanes   = native_lanes;
         constexpr int n_nodes = lanes / dim;
         using F               = LaneFunctions<lanes>;
-        using Two
-            = double __attribute__((vector_size(16), aligned(8), may_alias));
         DampedLanes<adaptive, decltype(is_local)::value, lanes> several(
             damping);
         for (; i + n_nodes <= end; i += n_nodes)

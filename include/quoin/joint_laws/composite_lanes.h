@@ -13,8 +13,9 @@
 namespace quoin
 {
   /**
-   * Cracks that close, and flow that Newton's method finds without crushing and
-   * dilation, are in lanes; CompositeLaw itself does the rest, point by point.
+   * Cracks that close, flow that Newton's method finds without crushing and
+   * dilation, and crushing alone are in lanes; CompositeLaw itself does the
+   * rest, point by point.
    */
   template <int lanes, int dim>
   class LawLanes<CompositeLaw, lanes, dim>
@@ -235,10 +236,13 @@ namespace quoin
       {
         const Value tau_mean = 0.5 * (dot(tau_old, direction) + flow.tau);
         lost.crushing
-            += weight * flow.cap
-               * (sigma_mean
-                      * (2. * law.cap.normal * sigma_new + law.cap.offset)
-                  + tau_mean * (2. * law.cap.shear) * flow.tau);
+            += weight
+               * (crushes ? flow.cap
+                                * (sigma_mean
+                                       * (2. * law.cap.normal * sigma_new
+                                          + law.cap.offset)
+                                   + tau_mean * (2. * law.cap.shear) * flow.tau)
+                          : none);
         F::store(points.of(at.internal[crushing]), flow.crushing, crushes);
       }
 
@@ -274,7 +278,7 @@ namespace quoin
     }
 
     /** The flow from trial tractions of the points of @p asked, where there is
-        no crushing, no dilation and no corner. */
+        no dilation and no corner, or nothing but crushing. */
     QUOIN_INLINE Flow find_flow(const PointLanes<lanes, dim> &points,
                                 const Bits &asked, const Value &sigma,
                                 const Value &tau, const Value &bond_start) const
@@ -292,7 +296,11 @@ namespace quoin
         if (F::any(asked & opens))
           iterate(points, asked & opens, slips, sigma, tau, bond_start, flow);
       }
-      const Bits left = asked & ~flow.found;
+      // With dilation a crossed strength comes first, see
+      // CompositeReturnMap::end().
+      Bits left = asked & ~flow.found;
+      if (law.dilation != 0.)
+        left &= ~(opens | slips);
       if (has_cap && F::any(left))
         crush(points, left, sigma, tau, bond_start, flow);
       return flow;

@@ -70,6 +70,12 @@ namespace quoin
       return 75. / 67. * compression_energy / compression + peak_crushing;
     }
 
+    /** Steepest descent of cap(k3) [Pa/m]. */
+    double steepest() const
+    {
+      return compression / (middle_crushing() - peak_crushing);
+    }
+
     /** Below this the cap is never reached [Pa^2]. */
     double lowest_load() const
     {
@@ -159,6 +165,7 @@ namespace quoin
         dilation is not above the friction that is left. */
     CompositeLaw reduced(double factor) const;
 
+    /** Of the cap none is lost in tension or slip. */
     bool loses_strength() const
     {
       return tension > 0. || cohesion > 0. || friction != residual_friction;

@@ -49,12 +49,13 @@ namespace quoin
     /** tan(psi) [-] without pressure, which lowers it. */
     double free_dilation(double bond) const;
 
-    /** Below this share of the slope without softening crush() would have a
-        multiple of its rounding error in the tractions [-]. */
+    /** crush() gives up where the slope of its equation is below this share of
+        that without softening: rounding would have a multiple of itself in the
+        tractions [-]. */
     static constexpr double steepest_softening = 0.25;
-    /** After a step of Newton's method whose square is at most this crush() has
-        its y, as the square is what is left; times 2 kn Cnn k3 / |grad f3| if
-        that is less than 1, where the cap begins to harden. */
+    /** Largest square of the last step of crush() in y, times the smaller of 1
+        and 2 kn Cnn k3 / |grad f3|: its error is of the order of the square,
+       and larger where the cap begins to harden. */
     static constexpr double accurate_step = 1e-17;
 
     const CompositeLaw &law;
@@ -73,7 +74,7 @@ namespace quoin
 
     /**
      * Newton's method for f3 = 0 by y = 2 kn Cnn dl3, if the joint crushes
-     * without opening or slip: sigma + Cn/(2 Cnn) falls by 1 + y, tau by
+     * without opening or slip: sigma + Cn/(2 Cnn) is divided by 1 + y, tau by
      * 1 + y ks Css/(kn Cnn). Whether it found what no other surface objects to.
      */
     bool crush(CompositeFlow &flow) const;

@@ -15,11 +15,15 @@ namespace quoin
   /** Where a history of a point is recorded. */
   struct HistoryPoint
   {
-    unsigned int entity = 0;     /**< local node, cell or joint point */
+    /** Local cell or joint point, of a rank that records it. */
+    unsigned int entity = 0;
     bool here           = false; /**< whether this rank records it */
-    /** Of displacements and velocities: the nodes that this rank owns, of those
-        that the value is interpolated from, and their weights [-]. */
+    /** Of displacements and velocities instead: the nodes that this rank owns,
+        of those that the value is interpolated from, and their weights [-]. */
     std::vector<std::pair<unsigned int, double>> nodes = {};
+    /** Whether it lies in a block; outside the value is that of the nearest
+        node. */
+    bool is_inside = true;
   };
 
   /**

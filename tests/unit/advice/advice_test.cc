@@ -177,7 +177,7 @@ TEST(InputAdvice, RecordsThatEndInMotion)
     parameters.loads[0] = motion("base", "bottom", velocity, "0");
     return advice(parameters).find("stays at ") != std::string::npos;
   };
-  EXPECT_TRUE(ends("if(t < 0.6, sin(2*pi*t), 0.1)"));
+  EXPECT_TRUE(ends("if(t < 0.45, sin(4*pi*t), -0.5878)"));
   EXPECT_FALSE(ends("if(t < 0.5, sin(4*pi*t), 0)"));
   EXPECT_FALSE(ends("min(1, t / 0.1)"));
   EXPECT_FALSE(ends("0"));

@@ -141,7 +141,8 @@ TEST(Histories, PointsOutsideOfBlocksAreNamed)
     if (lines.empty())
       continue;
     EXPECT_EQ(lines[0], "history v: the motion of the node at (0, 1), the "
-                        "nearest to its 'Point', 0.25 m away");
+                        "nearest to its 'Point', which lies outside of all "
+                        "blocks, 0.25 m away");
   }
 }
 
