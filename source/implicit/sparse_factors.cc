@@ -34,22 +34,6 @@ namespace quoin
       return rest;
     }
 
-    /** Takes the columns [begin, end) of @p from, each times its entry of
-        @p factors, from @p target; several at a time, so that it is loaded and
-        stored less often. */
-    template <typename Columns, typename Factors, typename Target>
-    void subtract(const Columns &from, const int begin, const int end,
-                  const Factors &factors, Target &&target)
-    {
-      int k = begin;
-      for (; k + 4 <= end; k += 4)
-        target -= factors[k] * from.col(k) + factors[k + 1] * from.col(k + 1)
-                  + factors[k + 2] * from.col(k + 2)
-                  + factors[k + 3] * from.col(k + 3);
-      for (; k < end; ++k)
-        target -= factors[k] * from.col(k);
-    }
-
     bool is_symmetric(const int n, const int *starts, const int *columns)
     {
       for (int i = 0; i < n; ++i)
@@ -221,13 +205,6 @@ namespace quoin
     auto &upper = node.upper;
     for (int k = begin; k < begin + size; ++k)
     {
-      // Updates by the columns before in the block.
-      auto column = lower.col(k);
-      for (int j = begin + 1; j < k; ++j)
-        column[j] -= lower.row(j).segment(begin, j - begin)
-                     * column.segment(begin, j - begin);
-      subtract(lower.bottomRows(n_rows - k), begin, k, column,
-               column.tail(n_rows - k));
       int pivot;
       const double largest
           = lower.col(k).segment(k, n - k).cwiseAbs().maxCoeff(&pivot);
@@ -240,16 +217,19 @@ namespace quoin
         lower.row(k).swap(lower.row(pivot));
         upper.col(k).swap(upper.col(pivot));
       }
-      column.tail(n_rows - k - 1) /= column[k];
+      const int left = n_rows - k - 1;
+      lower.col(k).tail(left) /= lower(k, k);
+      for (int j = k + 1; j < begin + size; ++j)
+        lower.col(j).tail(left) -= lower(k, j) * lower.col(k).tail(left);
     }
     // Rows of other columns, once no row is exchanged any more.
     const int next = begin + size, later = n - next;
-    for (int j = begin + 1; j < next; ++j)
-    {
-      subtract(upper, begin, j, lower.row(j), upper.col(j));
-      for (int k = begin; k < j; ++k)
+    for (int k = begin; k < next; ++k)
+      for (int j = k + 1; j < next; ++j)
+      {
+        upper.col(j) -= lower(j, k) * upper.col(k);
         lower.row(j).tail(later) -= lower(j, k) * lower.row(k).tail(later);
-    }
+      }
     if (later == 0)
       return true;
     lower.bottomRightCorner(n_rows - next, later).noalias()

@@ -25,7 +25,7 @@ namespace quoin
   using Pair
       = double __attribute__((vector_size(16), may_alias)); // x, y of a node
   using Two = double
-      __attribute__((vector_size(16), aligned(8), may_alias)); // anywhere
+      __attribute__((vector_size(16), aligned(8), may_alias)); // not aligned
 
   template <int lanes>
   struct Lanes;

@@ -485,8 +485,8 @@ namespace quoin
     const CompositeLaw law;
     const double opening_softening, slip_softening;
     const bool has_cap;
-    // Of the cap, so that points do not divide by its constants; without a cap
-    // they have no meaning.
+    // Constants of the cap, by which points need not divide then; they have no
+    // meaning without a cap.
     const double peak_rate, width_rate;                     /**< [1/m] */
     const double crush_compliance, crush_ratio, cap_centre; /**< see crush() */
     const double by_normal, by_shear; /**< 1/(2 Cnn), 1/(2 Css) [-] */

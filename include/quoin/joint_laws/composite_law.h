@@ -165,7 +165,7 @@ namespace quoin
         dilation is not above the friction that is left. */
     CompositeLaw reduced(double factor) const;
 
-    /** Of the cap none is lost in tension or slip. */
+    /** The cap does not count: neither tension nor slip takes any of it. */
     bool loses_strength() const
     {
       return tension > 0. || cohesion > 0. || friction != residual_friction;

@@ -18,8 +18,8 @@ namespace quoin
     /** Local cell or joint point, of a rank that records it. */
     unsigned int entity = 0;
     bool here           = false; /**< whether this rank records it */
-    /** Of displacements and velocities instead: the nodes that this rank owns,
-        of those that the value is interpolated from, and their weights [-]. */
+    /** The nodes from which displacement or velocity is interpolated, those
+       that this rank owns, and their weights [-]. */
     std::vector<std::pair<unsigned int, double>> nodes = {};
     /** Whether it lies in a block; outside the value is that of the nearest
         node. */
@@ -30,7 +30,7 @@ namespace quoin
    * The joint point or the cell of all ranks that is nearest to the point of
    * @p wanted, a history of one of these. Displacements and velocities are
    * interpolated in the cell that contains the point, linearly, which is exact
-   * in rigid blocks; outside of all cells they are those of the nearest node.
+   * in rigid blocks, or nearly does; else they are those of the nearest node.
    * @p absent_in_the_end: whether each physical surface is absent in the end;
    * its nodes and cells are chosen last among those at the same position.
    * Throws an InputError if the point is far from the model or there is no such
