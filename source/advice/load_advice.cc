@@ -422,6 +422,32 @@ namespace quoin
       dealii::Utilities::MPI::min(ends, nodes.communicator(), ends);
       return { ends[0], -ends[1] };
     }
+
+    /** Warns of the water pressure @p load whose @p level never reaches its
+        boundary. Collective. */
+    template <int dim>
+    void check_wets(const Parameters &parameters, const LoadParameters &load,
+                    const TimeFunction &level, const NodeMap<dim> &nodes,
+                    Advice &advice)
+    {
+      double lowest = nowhere;
+      for (const auto &face :
+           faces_of_curves(nodes, load.boundaries, load.name, true))
+        for (const auto &point : face.points)
+          lowest = std::min(lowest, point[dim - 1]);
+      double highest = -nowhere;
+      for (const StageParameters &stage : parameters.stages)
+        if (names_load(stage, load.name))
+          for (const double t : { 0., 0.5 * stage.duration, stage.duration })
+            highest = std::max(highest, level({ t, t }));
+      Checks(advice, "load " + load.name + ": ")
+          .warn_if(highest > -nowhere && highest <= lowest,
+                   "the water level of ", highest,
+                   " m is below its boundary, whose lowest point is at ",
+                   lowest,
+                   " m, so that there is no pressure. Check the level and the "
+                   "height of the model.");
+    }
   } // namespace
 
   template <int dim>
@@ -457,9 +483,11 @@ namespace quoin
       const std::string about = "load " + load.name + ": ";
       if (load.pressure.field)
       {
-        if (load.pressure.field->level())
-          check_level(about, "the water level of ",
-                      *load.pressure.field->level());
+        if (const auto &level = load.pressure.field->level())
+        {
+          check_level(about, "the water level of ", *level);
+          check_wets(parameters, load, *level, nodes, advice);
+        }
         continue;
       }
       double lowest = 0.;

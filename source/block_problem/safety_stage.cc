@@ -20,13 +20,17 @@ namespace quoin
     /** Automatic failure displacement, by the mean displacement with which the
         loads have deformed the model, or by its diagonal. */
     constexpr double failure_by_loading = 10., failure_by_diagonal = 1e-3;
+    /** The same of implicit trials in which joints alone may fail, whose way
+        costs few steps: columns that lean on each other come to rest after
+        thirty times the elastic displacement, or more. */
+    constexpr double failure_by_slipping = 100.;
     /** At least, by the slip that mobilises the peak strength of joints, and by
         the motion along bolts that mobilises these, which may be at 70 degrees
         to the joint that slips; implicit trials may go beyond the limit. */
     constexpr double failure_by_slip = 2., failure_by_bolts = 6.;
-    /** Share of the model's diagonal that is enough for bolts: soft ones
+    /** Share of the model's diagonal that is enough for both: soft bolts
        without a strength would be mobilised where geometry has long changed. */
-    constexpr double most_for_bolts = 0.02;
+    constexpr double most_by_diagonal = 0.02;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
     /** Share of the failure displacement at which a trial of the implicit
@@ -112,6 +116,9 @@ namespace quoin
       bool is_interrupted();
       /** Displacement beyond which a trial may fail [m]; collective. */
       double failure_displacement() const;
+      /** Whether trials are implicit and find nothing but joints that fail.
+          Collective. */
+      bool only_joints_fail() const;
       /** Largest one since the start of the stage [m]; collective. */
       double largest_displacement() const;
 
@@ -300,6 +307,11 @@ namespace quoin
       solver.begin_stage(stage, previous_stage(system.parameters.stages, index),
                          state);
       const double limit = failure_displacement();
+      // Trials that may go farther begin to move against drag as early.
+      const double early
+          = safety.failure_displacement == 0. && only_joints_fail()
+                ? failure_by_loading / failure_by_slipping * limit
+                : limit;
       JumpWatch watch(limit);
       double last   = 0.; // largest displacement after the last step [m]
       trial.verdict = Verdict::undecided;
@@ -323,8 +335,8 @@ namespace quoin
           // would never reach, such as that of a block that swung on a bolt.
           const auto &was = before.template get<ImplicitState>();
           if (!was.jumps
-              && (was.released < 1. ? displacement > released_at * limit
-                                    : displacement > last + limit))
+              && (was.released < 1. ? displacement > released_at * early
+                                    : displacement > last + early))
           {
             state = before;
             solver.move_against_drag(state);
@@ -368,6 +380,20 @@ namespace quoin
     }
 
     template <int dim>
+    bool SafetyStage<dim>::only_joints_fail() const
+    {
+      const Model<dim> &model = *system.model;
+      if constexpr (dim == 2)
+        if (!model.reinforcement().empty())
+          return false;
+      return system.implicit_solver && system.nodes->faces().n_global_joints > 0
+             && dealii::Utilities::MPI::max(
+                    unsigned(model.blocks().cell_data().is_plastic()),
+                    context.run.communicator)
+                    == 0;
+    }
+
+    template <int dim>
     double SafetyStage<dim>::failure_displacement() const
     {
       if (safety.failure_displacement > 0.)
@@ -391,6 +417,10 @@ namespace quoin
       double least          = 0.;
       for (const JointSetParameters &set : strong.joints)
         least = std::max(least, failure_by_slip * slip_of_peak(set.law));
+      if (force > 0. && only_joints_fail())
+        least = std::max(least,
+                         std::min(failure_by_slipping * 2. * energy / force,
+                                  most_by_diagonal * diagonal));
       if constexpr (dim == 2)
         if (!model.reinforcement().empty())
         {
@@ -398,7 +428,8 @@ namespace quoin
               = failure_by_bolts
                 / (system.implicit_solver ? JumpWatch::far_beyond : 1.)
                 * mobilising_motion(model.reinforcement(), base, force);
-          least = std::max(least, std::min(wanted, most_for_bolts * diagonal));
+          least
+              = std::max(least, std::min(wanted, most_by_diagonal * diagonal));
         }
       return std::max(least, force > 0. && energy > 0.
                                  ? failure_by_loading * 2. * energy / force

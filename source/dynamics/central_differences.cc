@@ -69,6 +69,7 @@ namespace quoin
     begun       = new_begun;
     constraints = new_constraints;
     stage       = new_stage;
+    last_power.clear();
     force_phases.clear();
     for (const ForceOperator<dim> *each : forces)
       force_phases.push_back(clock.phase(each->kind()));
@@ -157,6 +158,7 @@ namespace quoin
     held.erase(std::unique(held.begin(), held.end()), held.end());
     for (const unsigned int node : nodes)
       moving_mass[node] = inverse_mass[node] = 0.;
+    last_power.clear();
   }
 
   // -- the parts of a step ---------------------------------------------------
@@ -186,9 +188,15 @@ namespace quoin
     for (std::size_t i = 0; i < forces.size(); ++i)
     {
       forces[i]->add_forces(context, state, sum);
+      // Velocities are still those of the last step.
+      const bool is_known
+          = !last_power.empty()
+            && forces[i]->has_same_power(last_begin, context.begin);
       state.energy.external
           += 0.5 * context.dt_before
-             * forces[i]->external_power(context.begin, state.velocity.data());
+             * (is_known ? last_power[i]
+                         : forces[i]->external_power(context.begin,
+                                                     state.velocity.data()));
       clock.lap(force_phases[i]);
     }
     // Forces on partner nodes are booked by their owners.
@@ -424,12 +432,16 @@ namespace quoin
   template <int dim>
   void CentralDifferences<dim>::book_work(State<dim> &state,
                                           const StepContext &context,
-                                          const StepSums &sums) const
+                                          const StepSums &sums)
   {
+    last_power.clear();
     for (const ForceOperator<dim> *each : forces)
-      state.pending.external
-          += 0.5 * context.dt
-             * each->external_power(context.begin, state.velocity.data());
+    {
+      last_power.push_back(
+          each->external_power(context.begin, state.velocity.data()));
+      state.pending.external += 0.5 * context.dt * last_power.back();
+    }
+    last_begin = context.begin;
     state.energy.damping += sums.damping.before;
     state.pending.damping += sums.damping.after;
     if (stage.damping == DampingType::adaptive)

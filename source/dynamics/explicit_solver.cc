@@ -46,6 +46,16 @@ namespace quoin
       for (const unsigned int node : constraint.nodes())
         is_held[nodes.block_of_node(node)] = 1;
     }
+
+    /** Collective. */
+    template <int dim>
+    bool cells_may_yield(const Model<dim> &model)
+    {
+      return dealii::Utilities::MPI::max(
+                 unsigned(model.blocks().cell_data().is_plastic()),
+                 model.nodes().communicator())
+             > 0;
+    }
   } // namespace
 
   template <int dim>
@@ -83,22 +93,34 @@ namespace quoin
   // -- a stage ----------------------------------------------------------------
 
   template <int dim>
-  double ExplicitSolver<dim>::largest_eigenvalue() const
+  bool ExplicitSolver<dim>::keeps_bound() const
   {
-    const double bound = model.stability().largest_eigenvalue(
-        node_mass, rigid_stage.mass_factor);
-    const auto &joints = model.properties().joints;
-    if (!takes_assembled_step
-        || std::any_of(joints.begin(), joints.end(),
-                       [](const JointSetParameters &set)
-                       { return set.damping.acts(); }))
-      return bound;
+    const auto &joints   = model.properties().joints;
+    const bool is_damped = std::any_of(joints.begin(), joints.end(),
+                                       [](const JointSetParameters &set)
+                                       { return set.damping.acts(); });
+    bool has_bars        = false;
     if constexpr (dim == 2)
-      if (!model.reinforcement().empty() || all.beams)
-        return bound;
+      has_bars = !model.reinforcement().empty() || all.beams;
+    return is_damped || has_bars || added.share > 0. || cells_may_yield(model);
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::largest_eigenvalue()
+  {
+    const double bound
+        = dealii::Utilities::MPI::max(model.stability().largest_eigenvalue(
+                                          node_mass, rigid_stage.mass_factor),
+                                      communicator);
+    gain = 1.;
+    if (!takes_assembled_step || keeps_bound())
+      return bound;
     const double found
         = highest_squared_frequency(model, node_mass, rigid_stage);
-    return found > 0. ? std::min(bound, found) : bound;
+    if (found <= 0. || found >= bound)
+      return bound;
+    gain = std::sqrt(bound / found);
+    return found;
   }
 
   template <int dim>
@@ -243,10 +265,6 @@ namespace quoin
   template <int dim>
   double ExplicitSolver<dim>::release_duration(const State<dim> &state) const
   {
-    const bool yields
-        = dealii::Utilities::MPI::max(
-              unsigned(model.blocks().cell_data().is_plastic()), communicator)
-          > 0;
     const auto &held = state.template get<ConstructionState<dim>>().held;
     if (std::none_of(held.begin(), held.end(),
                      [](const HeldForces<dim> &item)
@@ -264,7 +282,7 @@ namespace quoin
                          "time of a shear wave along the model, but all blocks "
                          "are rigid. Give a time in which forces may be "
                          "released without shaking the blocks.");
-    return yields ? yielding_release * passage : passage;
+    return cells_may_yield(model) ? yielding_release * passage : passage;
   }
 
   template <int dim>

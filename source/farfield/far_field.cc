@@ -165,11 +165,20 @@ namespace quoin
 
   // -- a step of the boundary elements -------------------------------------
 
+  double FarField::time_of_steps(const std::uint64_t n_steps) const
+  {
+    const double lag = problem.scheme == CouplingScheme::staggered
+                           ? 0.
+                           : 0.5 * dt / double(substeps);
+    return double(n_steps) * dt - lag;
+  }
+
   void FarField::find_incident(const FarFieldState &far)
   {
     const auto part
         = [&](const VectorXd &values) { return VectorXd(values(unknowns)); };
-    const double begin = double(far.n_steps) * dt, end = begin + dt;
+    const double begin  = time_of_steps(far.n_steps),
+                 end    = time_of_steps(far.n_steps + 1);
     const VectorXd none = VectorXd::Zero(Eigen::Index(unknowns.size()));
     incident_u = incident_velocity = incident_p = none;
     if (incident_displacement)
@@ -181,11 +190,11 @@ namespace quoin
     }
   }
 
-  VectorXd FarField::scattered_values(const double begin,
-                                      const double end) const
+  VectorXd FarField::scattered_values(const std::uint64_t step) const
   {
-    const auto n    = Eigen::Index(problem.boundary.n_unknowns());
-    VectorXd values = problem.given ? problem.given(begin, end)
+    const auto n       = Eigen::Index(problem.boundary.n_unknowns());
+    const double begin = time_of_steps(step), end = time_of_steps(step + 1);
+    VectorXd values = problem.given ? problem.given(std::max(0., begin), end)
                                     : VectorXd(VectorXd::Zero(n));
     if (!incident_displacement)
       return values;
@@ -200,9 +209,8 @@ namespace quoin
   {
     FarFieldState &far = state.get<FarFieldState>();
     find_incident(far);
-    const double begin  = double(far.n_steps) * dt;
-    const VectorXd rest = marching->condensed_load(
-        unknowns, scattered_values(begin, begin + dt));
+    const VectorXd rest
+        = marching->condensed_load(unknowns, scattered_values(far.n_steps));
     frozen = rest + stiffness * (to_eigen(far.last_motion) - incident_u)
              + incident_p;
     far.frozen          = to_vector(frozen);
@@ -215,14 +223,13 @@ namespace quoin
   void FarField::finish_element_step(State<2> &state)
   {
     FarFieldState &far  = state.get<FarFieldState>();
-    const double begin  = double(far.n_steps) * dt;
     const VectorXd last = to_eigen(far.last_motion);
     // Motion by the mean velocities, so that the tractions are those that
     // acted.
     const VectorXd motion = problem.scheme == CouplingScheme::staggered
                                 ? last_u
                                 : VectorXd(last + to_eigen(far.velocity_sum));
-    VectorXd given        = scattered_values(begin, begin + dt);
+    VectorXd given        = scattered_values(far.n_steps);
     given(unknowns)       = motion - incident_u;
     marching->begin_step(given);
 
@@ -402,10 +409,11 @@ namespace quoin
 
   VectorXd FarField::given_values(const State<2> &state) const
   {
-    const auto n_steps = double(state.get<FarFieldState>().n_steps);
-    if (!problem.given || n_steps == 0.)
+    const std::uint64_t n_steps = state.get<FarFieldState>().n_steps;
+    if (!problem.given || n_steps == 0)
       return VectorXd::Zero(Eigen::Index(problem.boundary.n_unknowns()));
-    return problem.given((n_steps - 1.) * dt, n_steps * dt);
+    return problem.given(std::max(0., time_of_steps(n_steps - 1)),
+                         time_of_steps(n_steps));
   }
 
   FarField::TotalFields FarField::total_fields(const State<2> &state) const
@@ -413,15 +421,16 @@ namespace quoin
     const FarFieldState &far = state.get<FarFieldState>();
     TotalFields fields{ to_eigen(far.displacement), to_eigen(far.velocity),
                         to_eigen(far.traction) };
-    const auto n_steps = double(far.n_steps);
-    if (incident_displacement)
-      fields.displacement += incident_displacement(n_steps * dt);
-    if (incident_displacement && n_steps > 0.)
+    if (!incident_displacement)
+      return fields;
+    const double now        = time_of_steps(far.n_steps);
+    const VectorXd incident = incident_displacement(now);
+    fields.displacement += incident;
+    if (far.n_steps > 0)
     {
-      fields.velocity += (incident_displacement(n_steps * dt)
-                          - incident_displacement((n_steps - 1.) * dt))
-                         / dt;
-      fields.traction += incident_traction((n_steps - 1.) * dt, n_steps * dt);
+      const double before = time_of_steps(far.n_steps - 1);
+      fields.velocity += (incident - incident_displacement(before)) / dt;
+      fields.traction += incident_traction(before, now);
     }
     return fields;
   }

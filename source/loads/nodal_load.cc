@@ -566,6 +566,17 @@ namespace quoin
     return power;
   }
 
+  template <int dim>
+  bool NodalLoad<dim>::has_same_power(const TimePoint &one,
+                                      const TimePoint &other) const
+  {
+    return !field && std::min(one.stage, other.stage) >= ramp_duration
+           && pressure.value.is_constant()
+           && std::all_of(components.begin(), components.end(),
+                          [](const LoadComponent &component)
+                          { return component.value.is_constant(); });
+  }
+
   template class NodalLoad<2>;
   template std::vector<BoundaryFace<2>>
   faces_of_curves(const NodeMap<2> &, const std::vector<std::string> &,

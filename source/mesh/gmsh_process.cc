@@ -121,7 +121,7 @@ namespace quoin
 
   GmshMesh run_gmsh(const std::string &source,
                     const std::vector<std::string> &arguments,
-                    const std::string &input)
+                    const std::string &input, const std::string &cure)
   {
     // 1. Start it.
     const std::string program = gmsh_program();
@@ -164,11 +164,7 @@ namespace quoin
                        + "), perhaps because memory is short. Coarsen the "
                          "mesh or use a larger machine.");
     if (!channel.is_complete())
-      fail_on_mesh(
-          source,
-          "gmsh ended while it read or meshed the file, which is damaged, has "
-          "a command such as Exit, or a surface whose curves cross each other. "
-          "Open it in gmsh and repair it there.");
+      fail_on_mesh(source, "gmsh ended while it read or meshed it. " + cure);
     return mesh;
   }
 } // namespace quoin

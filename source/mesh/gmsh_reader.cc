@@ -129,8 +129,10 @@ namespace quoin
                      const std::string &source, const std::string &cure,
                      const MeshDimension dimension, const CellOptions &cells)
     {
-      GmshMesh read
-          = run_gmsh(source, arguments(file, cells, dimension), geometry);
+      const auto words = arguments(file, cells, dimension);
+      GmshMesh read    = geometry.empty()
+                             ? run_gmsh(source, words)
+                             : run_gmsh(source, words, geometry, cure);
       if (!read.gmsh_errors.empty())
         fail_on_mesh(source, "gmsh could not make a mesh of it: "
                                  + read.gmsh_errors + ". " + cure);
@@ -213,7 +215,9 @@ namespace quoin
   {
     const std::string cure
         = maker.rfind("section ", 0) == 0
-              ? "Change the parameters of that section."
+              ? "Change the parameters of that section, such as 'Element "
+                "size', 'Shortest edge' or 'Random seed': joints that nearly "
+                "meet leave no room for cells."
               : "Correct the blocks in the program that wrote the file.";
     return read_on_first_rank(communicator,
                               [&]() {

@@ -17,28 +17,25 @@ namespace quoin
 {
   namespace
   {
-    /** Squared distance added to put nodes after others at the same position
-        [m^2]. */
-    constexpr double just_behind = 1e-18;
-
     /**
      * The nearest node, cell or joint point of this rank. Among equal distances
-     * one of a block that contains the point, then the lower, then the left one
-     * is chosen, as numbers depend on the number of ranks.
+     * one of a block that is present in the end, then of one that contains the
+     * point, then the lower, then the left one is chosen, as numbers depend on
+     * the number of ranks.
      */
     template <int dim>
     struct Nearest
     {
-      /** 1 outside of the block, then the last coordinate first. */
+      /** Which blocks come first, then the last coordinate first. */
       using Rest = std::array<double, dim + 1>;
       /** Squared distance [m^2] and Rest. */
       using Key                    = std::array<double, dim + 2>;
       static constexpr double none = std::numeric_limits<double>::max();
 
-      static Rest place(const double outside, const dealii::Point<dim> &p)
+      static Rest place(const double order, const dealii::Point<dim> &p)
       {
         Rest rest;
-        rest[0] = outside;
+        rest[0] = order;
         std::reverse_copy(p.begin_raw(), p.end_raw(), rest.begin() + 1);
         return rest;
       }
@@ -146,11 +143,12 @@ namespace quoin
     }
 
     /** What of the nodes at the least distance says which comes first: of their
-        block, which may lie on several ranks. Collective. */
+        block, which may lie on several ranks and is @p absent in the end or
+        not. Collective. */
     template <int dim>
-    typename Nearest<dim>::Rest place_of_block(const Model<dim> &model,
-                                               const unsigned int block,
-                                               const dealii::Point<dim> &point)
+    typename Nearest<dim>::Rest
+    place_of_block(const Model<dim> &model, const unsigned int block,
+                   const dealii::Point<dim> &point, const bool absent)
     {
       const NodeMap<dim> &nodes = model.nodes();
       const unsigned int part   = nodes.blocks().find(block);
@@ -176,7 +174,9 @@ namespace quoin
       for (unsigned int d = 0; d < dim; ++d)
         centre[d] = sums[d] / sums[dim];
       return Nearest<dim>::place(
-          MPI::max(inside, nodes.communicator()) > 0 ? 0. : 1., centre);
+          (absent ? 2. : 0.)
+              + (MPI::max(inside, nodes.communicator()) > 0 ? 0. : 1.),
+          centre);
     }
 
     /** Collective. */
@@ -186,15 +186,9 @@ namespace quoin
                         Nearest<dim> &nearest)
     {
       const NodeMap<dim> &nodes = model.nodes();
-      const auto farther        = [&](const unsigned int node)
-      {
-        return absent_in_the_end[nodes.table().group[nodes.block_of_node(node)]]
-                   ? just_behind
-                   : 0.;
-      };
-      const auto distance = [&](const unsigned int node) {
-        return nodes.point(node).distance_square(nearest.point) + farther(node);
-      };
+      // Alike to the last bit of all nodes at one position.
+      const auto distance = [&](const unsigned int node)
+      { return nodes.point(node).distance_square(nearest.point); };
       double least = Nearest<dim>::none;
       for (unsigned int i = 0; i < nodes.n_owned(); ++i)
         least = std::min(least, distance(i));
@@ -209,12 +203,12 @@ namespace quoin
       std::map<unsigned int, typename Nearest<dim>::Rest> places;
       for (unsigned int b = 0; b < has_one.size(); ++b)
         if (has_one[b])
-          places[b] = place_of_block(model, b, nearest.point);
+          places[b] = place_of_block(model, b, nearest.point,
+                                     absent_in_the_end[nodes.table().group[b]]);
       for (unsigned int i = 0; i < nodes.n_owned(); ++i)
         if (distance(i) == least)
-          nearest.consider(
-              nodes.point(i), i,
-              [&] { return places.at(nodes.block_of_node(i)); }, farther(i));
+          nearest.consider(nodes.point(i), i,
+                           [&] { return places.at(nodes.block_of_node(i)); });
     }
 
     /** Whether @p key is the least of all ranks, on the first rank that has it:
@@ -303,12 +297,28 @@ namespace quoin
               { nodes.exchange().local(global), all[2 * k + 1] });
     }
 
+    /** Considers cells by their centroids; on the wall of what is absent in the
+        end those of the blocks beside it alone. Collective. */
     template <int dim>
-    void consider_cells(const Model<dim> &model, Nearest<dim> &nearest)
+    void consider_cells(const Model<dim> &model,
+                        const std::vector<bool> &absent_in_the_end,
+                        Nearest<dim> &nearest)
     {
       const NodeMap<dim> &nodes = model.nodes();
+      const auto is_absent      = [&](const unsigned int cell)
+      {
+        return absent_in_the_end
+            [nodes.table().group[nodes.blocks().block_of_cell(cell)]];
+      };
+      unsigned int stays = 0; // whether a block with the point does
+      for (unsigned int c = 0; c < nodes.cells().size() && stays == 0; ++c)
+        if (!is_absent(c) && outside(nodes, c, nearest.point) == 0.)
+          stays = 1;
+      stays = dealii::Utilities::MPI::max(stays, nodes.communicator());
       for (unsigned int c = 0; c < nodes.cells().size(); ++c)
       {
+        if (stays > 0 && is_absent(c))
+          continue;
         dealii::Point<dim> centroid;
         for (const auto &corner : corners(nodes, c))
           centroid += corner / (dim + 1.);
@@ -420,7 +430,7 @@ namespace quoin
       consider_joint_points(model, wanted.curve, nearest);
       break;
     default:
-      consider_cells(model, nearest);
+      consider_cells(model, absent_in_the_end, nearest);
     }
     HistoryPoint result
         = { nearest.entity, is_owner(model.nodes(), wanted, nearest.key) };

@@ -129,6 +129,23 @@ namespace quoin
     return { volume(block) - above, above };
   }
 
+  double BlockCutter::section(const unsigned int block,
+                              const JointPlane &plane) const
+  {
+    // The faces above the plane and the section close the upper part.
+    SpaceVector sum;
+    for (const unsigned int f : blocks[block])
+    {
+      std::vector<SpacePoint> loop;
+      for (const unsigned int v : all_faces[f].loop)
+        loop.push_back(points[v]);
+      loop = clipped(loop, plane);
+      if (loop.size() > 2)
+        sum += (all_faces[f].inner == block ? 1. : -1.) * area_vector(loop);
+    }
+    return sum.norm();
+  }
+
   bool BlockCutter::may_cut(const unsigned int block,
                             const JointPlane &plane) const
   {

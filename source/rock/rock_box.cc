@@ -87,9 +87,12 @@ namespace quoin
         {
           if (set.persistence < 1. && random.uniform() >= set.persistence)
             continue;
-          box.n_refused
-              += box.blocks.cut_block(b, box.planes[s][p], RockBox::surface(s))
-                 == BlockCutter::refused;
+          if (box.blocks.cut_block(b, box.planes[s][p], RockBox::surface(s))
+              == BlockCutter::refused)
+          {
+            ++box.n_refused;
+            box.refused_area[s] += box.blocks.section(b, box.planes[s][p]);
+          }
         }
         if (box.blocks.n_blocks() > rock.most_blocks)
           throw InputError(
@@ -209,6 +212,7 @@ namespace quoin
     for (unsigned int s = 0; s < rock.sets.size(); ++s)
     {
       box.planes.push_back(draw_planes(rock, rock.sets[s]));
+      box.refused_area.push_back(0.);
       cut(rock, s, box);
     }
     if (box.blocks.n_blocks() == 1)
@@ -249,13 +253,26 @@ namespace quoin
               + std::to_string(box.planes[s].size()) + " planes, joints of "
               + number_text(box.joint_area(s)) + " m^2, "
               + number_text(box.joint_area(s) / total) + " m^2 per m^3";
-    if (box.n_refused > 0)
-      text += "\n" + std::to_string(box.n_refused)
-              + " cuts of blocks left out, which would make edges below "
-                "'Shortest edge', "
-              + number_text(rock.shortest_edge)
-              + " m, or blocks below 'Smallest block', "
-              + number_text(rock.smallest_block) + " m^3";
+    if (box.n_refused == 0)
+      return text;
+    text += "\n" + std::to_string(box.n_refused)
+            + " cuts of blocks left out, which would make edges below "
+              "'Shortest edge', "
+            + number_text(rock.shortest_edge)
+            + " m, or blocks below 'Smallest block', "
+            + number_text(rock.smallest_block) + " m^3: joints of";
+    std::string separator = " ";
+    for (unsigned int s = 0; s < rock.sets.size(); ++s)
+      if (const double area = box.refused_area[s]; area > 0.)
+      {
+        text += separator + number_text(area) + " m^2 of set '"
+                + rock.sets[s].name + "', "
+                + std::to_string(
+                    std::lround(100. * area / (area + box.joint_area(s))))
+                + " % of it";
+        separator = ", ";
+      }
+    text += "; smaller values of both cut more of them";
     return text;
   }
 

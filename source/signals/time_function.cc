@@ -25,6 +25,14 @@ namespace quoin
   {
     std::string text    = dealii::Utilities::trim(given);
     const bool is_named = TimeFunction::is_named(text);
+    double number       = 0.;
+    constant = !is_named && boost::conversion::try_lexical_convert(text, number)
+               && std::isfinite(number);
+    if (constant)
+    {
+      evaluate = [number](const TimePoint &) { return number; };
+      return;
+    }
     if (is_named)
     {
       const std::size_t times = text.find(" times ");
@@ -53,13 +61,6 @@ namespace quoin
       text = text.substr(times + 7);
     }
 
-    double constant = 0.;
-    if (!is_named && boost::conversion::try_lexical_convert(text, constant)
-        && std::isfinite(constant))
-    {
-      evaluate = [constant](const TimePoint &) { return constant; };
-      return;
-    }
     const auto parser = std::make_shared<dealii::FunctionParser<2>>(1);
     parse_expression(
         text, "is no expression of t and T",

@@ -47,7 +47,9 @@ namespace quoin
         "times the mean elastic displacement under the loads, which is twice "
         "the stored energy of blocks and joints divided by the weights and "
         "tractions, or a thousandth of the model's diagonal without loads; at "
-        "least twice the peak slip of joints of the law 'Barton-Bandis' [m]");
+        "least twice the peak slip of joints of the law 'Barton-Bandis', and a "
+        "hundred times the mean elastic displacement if the trials are "
+        "implicit and joints alone may fail [m]");
     entries.choice(
         "Reduced strength", reduced,
         { { "joints and blocks", all },

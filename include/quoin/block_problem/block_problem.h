@@ -39,8 +39,6 @@ namespace quoin
     /** Reports the time step of each stage, or its number of degrees of
         freedom, and warnings; throws an InputError about wrong stages. */
     void report_stages();
-    /** Says how careful the bound of the time step is. */
-    void report_highest_frequency();
     /** Says what mass scaling changes in stage @p index, which has begun. */
     void report_added_mass(unsigned int index);
     /** Warns of likely mistakes, once stage @p index has begun with the state

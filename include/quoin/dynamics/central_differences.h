@@ -88,7 +88,7 @@ namespace quoin
     /** Books the work of operators and damping until the middle of the step.
         Collective with adaptive damping. */
     void book_work(State<dim> &state, const StepContext &context,
-                   const StepSums &sums) const;
+                   const StepSums &sums);
     /** Collective. */
     void exchange_positions(State<dim> &state);
 
@@ -149,6 +149,10 @@ namespace quoin
     bool dashpots = false;
     /** Clock phases of forces and constraints. */
     std::vector<unsigned int> force_phases, constraint_phases;
+    /** External power of forces in the middle of the last step, with its forces
+        [W]; none after a change of velocities between steps. */
+    std::vector<double> last_power;
+    TimePoint last_begin;
     const struct
     {
       unsigned int blocks, search, loads, exchange;

@@ -80,11 +80,16 @@ namespace quoin
                       const StageParameters *previous, State<dim> &state);
 
     /** Lets the critical step of the next stages be that of the assembled
-        stiffness, where the model has no stiffness but that of
-        highest_squared_frequency(). */
+        stiffness, unless keeps_bound(). */
     void take_assembled_step()
     {
       takes_assembled_step = true;
+    }
+    /** How many times as long the critical step of the stage is, without
+        stiffness-proportional damping, as that of the bound of each node. */
+    double step_gain() const
+    {
+      return gain;
     }
     /** Critical time step of the stage [s], the same on all ranks. */
     double critical_time_step() const
@@ -153,10 +158,15 @@ namespace quoin
     /** Time of a shear wave along the model and back, with added masses [s];
         0 if all blocks are rigid. */
     double passage_time() const;
+    /** Whether the critical step is that of the bound in any case: with
+        stiffness or damping that highest_squared_frequency() does not know,
+        with cells that may yield and then deform, and with masses scaled by the
+        bound. */
+    bool keeps_bound() const;
     /** Largest omega^2 of blocks, joints and contacts with the masses of the
-        stage: by the bound of this rank or, if that is wanted, of the assembled
-        stiffness [1/s^2]. Collective. */
-    double largest_eigenvalue() const;
+        stage: by the bound of each node or, if that is wanted, of the assembled
+        stiffness, then with its gain [1/s^2]. Collective. */
+    double largest_eigenvalue();
     /** Time over which gravity that begins in the stage grows [s]. */
     double automatic_ramp() const;
     /** Duration of the release of held forces in this stage [s]. */
@@ -206,6 +216,7 @@ namespace quoin
     AddedWater<dim> water;
     bool takes_assembled_step = false;
     double critical_step      = 0.;
+    double gain               = 1.; /**< see step_gain() */
     AddedMass added;
     double time_step = 0.;
 

@@ -232,11 +232,16 @@ namespace quoin
     void start(const std::vector<CapturedNode<2>> &captured, State<2> &state);
     void prepare_step(const StepContext &step,
                       const std::vector<CapturedNode<2>> &captured);
+    /** Time of the blocks that the boundary elements have reached after so many
+        steps [s]: velocities of the blocks are centred, so that the K steps
+       that begin with the positions of 0 move them until half a step of the
+       blocks before the step of the boundary elements is over. */
+    double time_of_steps(std::uint64_t n_steps) const;
     void find_incident(const FarFieldState &far);
     void begin_element_step(State<2> &state);
     void finish_element_step(State<2> &state);
-    /** All over the boundary. */
-    Eigen::VectorXd scattered_values(double begin, double end) const;
+    /** All over the boundary, of a step of the boundary elements. */
+    Eigen::VectorXd scattered_values(std::uint64_t step) const;
 
     FarFieldDomain problem;
     InterfaceTransfer transfer;

@@ -105,6 +105,8 @@ namespace quoin
     double
     external_power(const TimePoint &time,
                    const dealii::Tensor<1, dim> *velocity) const override;
+    bool has_same_power(const TimePoint &one,
+                        const TimePoint &other) const override;
 
     /** Traction x, y, z [Pa] or acceleration [m/s^2], pressure [Pa] and place
         of moving shapes [m]; where they differ from place to place, numbers

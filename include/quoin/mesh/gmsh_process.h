@@ -18,14 +18,19 @@ namespace quoin
   /**
    * Run the program quoin_gmsh, which lies in the folder of this program or in
    * the one above, and wait for its end. @p arguments are those of its command
-   * line, @p input is what it reads from `/dev/stdin`.
+   * line, @p input is what it reads from `/dev/stdin`; @p cure: what the user
+   * may do if gmsh ends before it is through.
    *
    * Throws InputError if the program is not there or is killed, and if gmsh
    * crashes or ends the process, with @p source as the name of the mesh.
    */
   GmshMesh run_gmsh(const std::string &source,
                     const std::vector<std::string> &arguments,
-                    const std::string &input = "");
+                    const std::string &input = "",
+                    const std::string &cure
+                    = "The file is damaged, has a command such as Exit, or a "
+                      "surface whose curves cross each other. Open it in gmsh "
+                      "and repair it there.");
 } // namespace quoin
 
 #endif

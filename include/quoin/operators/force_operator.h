@@ -172,6 +172,13 @@ namespace quoin
     {
       return 0.;
     }
+
+    /** Whether external_power() is the same at two times of a stage if the
+        velocities are; false where to find that out takes as long. */
+    virtual bool has_same_power(const TimePoint &, const TimePoint &) const
+    {
+      return false;
+    }
   };
 } // namespace quoin
 

@@ -70,7 +70,7 @@ namespace quoin
 
     double share_of_critical_step = 0.8;
     /** Whether the critical step is that of the assembled stiffness. */
-    bool takes_assembled_step = false;
+    bool takes_assembled_step = true;
     double time_step          = 0.; /**< [s]; 0: automatic */
 
     std::vector<HistoryParameters> histories;

@@ -32,7 +32,7 @@ namespace quoin
    * interpolated in the cell that contains the point, linearly, which is exact
    * in rigid blocks, or nearly does; else they are those of the nearest node.
    * @p absent_in_the_end: whether each physical surface is absent in the end;
-   * its nodes and cells are chosen last among those at the same position.
+   * its nodes and cells are not taken on its wall.
    * Throws an InputError if the point is far from the model or there is no such
    * joint. Collective.
    */

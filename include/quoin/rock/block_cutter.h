@@ -86,6 +86,8 @@ namespace quoin
     double volume(unsigned int block) const; /**< [m^3] */
     /** Normal of a face times its area [m^2]. */
     dealii::Tensor<1, 3> area(unsigned int face) const;
+    /** Area of @p plane within @p block [m^2]. */
+    double section(unsigned int block, const JointPlane &plane) const;
 
   private:
     using Edge = std::pair<unsigned int, unsigned int>;

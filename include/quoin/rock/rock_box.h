@@ -67,6 +67,7 @@ namespace quoin
     /** Planes of each set, from the lowest position along the mean normal. */
     std::vector<std::vector<JointPlane>> planes;
     unsigned int n_refused = 0; /**< cuts left out to keep blocks whole */
+    std::vector<double> refused_area = {}; /**< of them, of each set [m^2] */
 
     /** Surface of the faces of a set in the blocks. */
     static unsigned int surface(const unsigned int set)

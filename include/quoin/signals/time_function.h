@@ -40,7 +40,7 @@ namespace quoin
     TimeFunction(const std::string &text, const std::string &folder);
 
     explicit TimeFunction(std::function<double(const TimePoint &)> function)
-      : evaluate(std::move(function))
+      : evaluate(std::move(function)), constant(false)
     {
     }
 
@@ -52,12 +52,19 @@ namespace quoin
       return evaluate(time);
     }
 
+    /** Whether it is a number, the same at all times. */
+    bool is_constant() const
+    {
+      return constant;
+    }
+
     /** The function of the time since the start of a run with one stage. */
     Signal signal() const;
 
   private:
     std::function<double(const TimePoint &)> evaluate
         = [](const TimePoint &) { return 0.; };
+    bool constant = true;
     Signal known; /**< without value unless it is a signal alone */
   };
 } // namespace quoin

@@ -277,7 +277,7 @@ TEST(GmshReader, MeshesATextAsAFile)
         mesh_gmsh_geometry("Point(1) = {0, 0;", "section Wall", MPI_COMM_SELF);
       },
       { "Mesh 'section Wall': gmsh could not", "syntax error",
-        "Change the parameters of that section." });
+        "Change the parameters of that section, such as" });
 }
 
 TEST(GmshReader, RefusesMeshesWithoutTriangles)

@@ -5,6 +5,7 @@
 
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/results/histories.h>
+#include <quoin/results/history_points.h>
 #include <quoin/mesh/block_numbering.h>
 
 #include <cmath>
@@ -58,6 +59,38 @@ TEST(Histories, AtAJointTheyAreOfOneBlockWhateverTheNumbers)
     EXPECT_EQ(row[3], 0.) << "in the lower block";
     EXPECT_EQ(row[4], 1.);
   }
+}
+
+// Between two nodes of the wall, where no distance to a node is zero.
+TEST(Histories, OnAWallTheyAreOfTheBlockThatStays)
+{
+  using Q = HistoryQuantity;
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  HistoryParameters wanted;
+  for (const double x : { 0.2, 0.5, 0.8, 1.3, 2., 2.7 })
+    for (const unsigned int goes : { 0U, 1U })
+    {
+      std::vector<bool> absent(2, false);
+      absent[goes]          = true;
+      wanted.point          = { { x, 2. } };
+      wanted.quantity       = Q::displacement;
+      const HistoryPoint at = find_history_point(run.model, wanted, absent);
+      ASSERT_FALSE(at.nodes.empty());
+      for (const auto &[node, weight] : at.nodes)
+      {
+        if (std::abs(weight) < 1e-12)
+          continue;
+        EXPECT_EQ(run.model.nodes().block_of_node(node), 1 - goes)
+            << "at x = " << x;
+      }
+      wanted.quantity = Q::stress;
+      const unsigned int cell
+          = find_history_point(run.model, wanted, absent).entity;
+      EXPECT_EQ(run.model.nodes().blocks().block_of_cell(cell), 1 - goes)
+          << "at x = " << x;
+    }
 }
 
 namespace

@@ -249,6 +249,21 @@ TEST(RockBox, MeshesIntoBlocksWithTheJointsOfItsFaces)
   }
 }
 
+TEST(RockBox, SaysHowMuchOfTheJointsIsLeftOut)
+{
+  RockBoxParameters rock = box_of(SpacePoint(6, 4, 3));
+  rock.smallest_block    = 15.;
+  rock.sets = { space_set("east", 90, 90, "3"), space_set("flat", 0, 0, "2") };
+  // At z = 2 m both halves would lose 12 of their 36 m^3.
+  const RockBox box = cut_rock_box(rock);
+  EXPECT_EQ(box.n_refused, 2u);
+  EXPECT_NEAR(box.refused_area[0], 0., 1e-12);
+  EXPECT_NEAR(box.refused_area[1], 24., 1e-12);
+  EXPECT_NE(rock_box_report(rock, box).find(
+                "joints of 24 m^2 of set 'flat', 100 % of it"),
+            std::string::npos);
+}
+
 TEST(RockBox, RefusesTooManyBlocksAndNone)
 {
   RockBoxParameters rock = three_orthogonal_sets();
