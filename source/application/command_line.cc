@@ -5,6 +5,7 @@
 #include <quoin/application/run.h>
 #include <quoin/parameters/parameters.h>
 #include <quoin/parameters/schema.h>
+#include <quoin/base/blas_kernels.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
 #include <quoin/output/collective.h>
@@ -18,9 +19,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <thread>
-
-/** Function of OpenBLAS, whose header has different names. */
-extern "C" void openblas_set_num_threads(int n_threads);
 
 namespace quoin
 {
@@ -135,7 +133,7 @@ namespace quoin
     prepare_lone_process();
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     // A rank uses one core: matrix products must not start threads.
-    openblas_set_num_threads(1);
+    choose_blas_kernels();
     const Errors errors;
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

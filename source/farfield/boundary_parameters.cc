@@ -443,9 +443,10 @@ namespace quoin
       entries.nonnegative(
           "Step ratio", parameters.step_ratio,
           "Ratio of c_1 times the time step to the length of the shortest "
-          "element, used if 'Time step' is 0; 0: automatic, 1 or, if Poisson's "
-          "ratio is above 0.25, as much as makes c_2 times the time step 0.58 "
-          "lengths, at most 1.5; with convolution quadrature 0.5 [-]");
+          "element, used if 'Time step' is 0; 0: automatic, 1 or, if elements "
+          "differ in length or Poisson's ratio is above 0.25, as much as makes "
+          "c_2 times the time step 0.58 of the longest, at most 1.5; with "
+          "convolution quadrature 0.5 [-]");
       entries.nonnegative(
           "Time step", parameters.time_step,
           "Time step of the boundary elements, which is shortened so that the "
@@ -613,13 +614,6 @@ namespace quoin
       const ElasticMedium &medium = boundary.medium;
       if (boundary.highest_frequency > 0.)
         boundary.element_length = medium.c2 / boundary.highest_frequency / 10.;
-      // Where the discrete operators are passive, or nearly so, and accurate.
-      if (boundary.step_ratio == 0.)
-        boundary.step_ratio
-            = boundary.formulation == Formulation::convolution_quadrature
-                  ? 0.5
-                  : std::clamp(medium.c1 / (std::sqrt(3.) * medium.c2), 1.,
-                               1.5);
       for (const BoundaryCurveParameters &curve : boundary.boundaries)
         if (curve.shape != BoundaryShape::mesh
             && curve.shape != BoundaryShape::interface && curve.n_elements == 0
@@ -674,9 +668,21 @@ namespace quoin
   double
   BoundaryElementParameters::wanted_time_step(const Boundary &boundary) const
   {
-    return time_step > 0.
-               ? time_step
-               : step_ratio * boundary.lengths().minCoeff() / medium.c1;
+    if (time_step > 0.)
+      return time_step;
+    const double shortest = boundary.lengths().minCoeff(),
+                 longest  = boundary.lengths().maxCoeff();
+    double ratio          = step_ratio;
+    // Where the discrete operators are passive, or nearly so, and accurate: of
+    // elements that are crossed in a small share of a step tractions that are
+    // given may feed what grows slowly.
+    if (ratio == 0.)
+      ratio = formulation == Formulation::convolution_quadrature
+                  ? 0.5
+                  : std::clamp(medium.c1 / (std::sqrt(3.) * medium.c2) * longest
+                                   / shortest,
+                               1., 1.5);
+    return ratio * shortest / medium.c1;
   }
 
   FormulationOptions BoundaryElementParameters::formulation_options() const
