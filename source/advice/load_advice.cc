@@ -423,26 +423,22 @@ namespace quoin
       return { ends[0], -ends[1] };
     }
 
-    /** Warns of the water pressure @p load whose @p level never reaches its
+    /** Warns of the water pressure @p load whose @p level is always below its
         boundary. Collective. */
     template <int dim>
-    void check_wets(const Parameters &parameters, const LoadParameters &load,
-                    const TimeFunction &level, const NodeMap<dim> &nodes,
-                    Advice &advice)
+    void check_wets(const LoadParameters &load, const TimeFunction &level,
+                    const NodeMap<dim> &nodes, Advice &advice)
     {
+      if (!level.is_constant())
+        return;
       double lowest = nowhere;
       for (const auto &face :
            faces_of_curves(nodes, load.boundaries, load.name, true))
         for (const auto &point : face.points)
           lowest = std::min(lowest, point[dim - 1]);
-      double highest = -nowhere;
-      for (const StageParameters &stage : parameters.stages)
-        if (names_load(stage, load.name))
-          for (const double t : { 0., 0.5 * stage.duration, stage.duration })
-            highest = std::max(highest, level({ t, t }));
+      const double height = level({ 0., 0. });
       Checks(advice, "load " + load.name + ": ")
-          .warn_if(highest > -nowhere && highest <= lowest,
-                   "the water level of ", highest,
+          .warn_if(height <= lowest, "the water level of ", height,
                    " m is below its boundary, whose lowest point is at ",
                    lowest,
                    " m, so that there is no pressure. Check the level and the "
@@ -486,7 +482,7 @@ namespace quoin
         if (const auto &level = load.pressure.field->level())
         {
           check_level(about, "the water level of ", *level);
-          check_wets(parameters, load, *level, nodes, advice);
+          check_wets(load, *level, nodes, advice);
         }
         continue;
       }

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <vector>
 
 // Functions of OpenBLAS, whose header has different names.
 extern "C" void openblas_set_num_threads(int n_threads);
@@ -16,20 +17,27 @@ namespace quoin
 {
   namespace
   {
-    /** The kernels that OpenBLAS has for what the processor can do; null: none
-        that are better than the fallback. */
-    const char *known_kernels()
+    constexpr const char *fallback = "Prescott";
+
+    bool has_fallback()
     {
+      return std::strcmp(openblas_get_corename(), fallback) == 0;
+    }
+
+    /** Kernels of OpenBLAS for what the processor can do, the fastest first. */
+    std::vector<const char *> known_kernels()
+    {
+      std::vector<const char *> kernels;
 #if defined(__x86_64__)
       if (__builtin_cpu_supports("avx512f")
           && __builtin_cpu_supports("avx512bw")
           && __builtin_cpu_supports("avx512dq")
           && __builtin_cpu_supports("avx512vl"))
-        return "SkylakeX";
+        kernels.push_back("SkylakeX");
       if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return "Haswell";
+        kernels.push_back("Haswell");
 #endif
-      return nullptr;
+      return kernels;
     }
 
     /** Lets OpenBLAS choose anew, where it has kernels to choose from. */
@@ -50,13 +58,16 @@ namespace quoin
   void choose_blas_kernels()
   {
     openblas_set_num_threads(1);
-    const char *fallback = "Prescott", *wanted = "OPENBLAS_CORETYPE";
-    const char *kernels = known_kernels();
-    if (!kernels || std::getenv(wanted)
-        || std::strcmp(openblas_get_corename(), fallback) != 0)
+    const char *wanted = "OPENBLAS_CORETYPE";
+    if (std::getenv(wanted))
       return;
-    setenv(wanted, kernels, 1);
-    choose_anew();
+    for (const char *kernels : known_kernels())
+    {
+      if (!has_fallback())
+        break;
+      setenv(wanted, kernels, 1);
+      choose_anew();
+    }
     // Nothing that this process starts is to depend on it.
     unsetenv(wanted);
   }

@@ -196,7 +196,7 @@ namespace quoin
         run.log.message("by the stiffness of all blocks and joints together, "
                         "'Critical time step = assembled' in section 'Time "
                         "stepping', it is ",
-                        gain, " times as long as by this bound of each node");
+                        gain, " times as long as this bound by each node");
       advise_about_stage(i, begun);
       time_is_known &= stage.duration_is_known();
       if (time_is_known)

@@ -28,8 +28,9 @@ namespace quoin
         the motion along bolts that mobilises these, which may be at 70 degrees
         to the joint that slips; implicit trials may go beyond the limit. */
     constexpr double failure_by_slip = 2., failure_by_bolts = 6.;
-    /** Share of the model's diagonal that is enough for both: soft bolts
-       without a strength would be mobilised where geometry has long changed. */
+    /** Share of the model's diagonal that is enough for slip and for bolts:
+       soft bolts without a strength would be mobilised where geometry has long
+       changed. */
     constexpr double most_by_diagonal = 0.02;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
@@ -115,7 +116,13 @@ namespace quoin
           a resumed run begins it anew. Collective. */
       bool is_interrupted();
       /** Displacement beyond which a trial may fail [m]; collective. */
-      double failure_displacement() const;
+      double failure_displacement() const
+      {
+        return failure_displacement(only_joints_fail() ? failure_by_slipping
+                                                       : failure_by_loading);
+      }
+      /** The same with @p by_loading mean elastic displacements. */
+      double failure_displacement(double by_loading) const;
       /** Whether trials are implicit and find nothing but joints that fail.
           Collective. */
       bool only_joints_fail() const;
@@ -308,10 +315,7 @@ namespace quoin
                          state);
       const double limit = failure_displacement();
       // Trials that may go farther begin to move against drag as early.
-      const double early
-          = safety.failure_displacement == 0. && only_joints_fail()
-                ? failure_by_loading / failure_by_slipping * limit
-                : limit;
+      const double early = failure_displacement(failure_by_loading);
       JumpWatch watch(limit);
       double last   = 0.; // largest displacement after the last step [m]
       trial.verdict = Verdict::undecided;
@@ -386,7 +390,9 @@ namespace quoin
       if constexpr (dim == 2)
         if (!model.reinforcement().empty())
           return false;
-      return system.implicit_solver && system.nodes->faces().n_global_joints > 0
+      return system.implicit_solver && safety.reduces_joints
+             && !system.solver->loads().beams
+             && system.nodes->faces().n_global_joints > 0
              && dealii::Utilities::MPI::max(
                     unsigned(model.blocks().cell_data().is_plastic()),
                     context.run.communicator)
@@ -394,7 +400,7 @@ namespace quoin
     }
 
     template <int dim>
-    double SafetyStage<dim>::failure_displacement() const
+    double SafetyStage<dim>::failure_displacement(const double by_loading) const
     {
       if (safety.failure_displacement > 0.)
         return safety.failure_displacement;
@@ -417,10 +423,9 @@ namespace quoin
       double least          = 0.;
       for (const JointSetParameters &set : strong.joints)
         least = std::max(least, failure_by_slip * slip_of_peak(set.law));
-      if (force > 0. && only_joints_fail())
-        least = std::max(least,
-                         std::min(failure_by_slipping * 2. * energy / force,
-                                  most_by_diagonal * diagonal));
+      if (force > 0. && by_loading > failure_by_loading)
+        least = std::max(least, std::min(by_loading * 2. * energy / force,
+                                         most_by_diagonal * diagonal));
       if constexpr (dim == 2)
         if (!model.reinforcement().empty())
         {

@@ -102,7 +102,13 @@ namespace quoin
     bool has_bars        = false;
     if constexpr (dim == 2)
       has_bars = !model.reinforcement().empty() || all.beams;
-    return is_damped || has_bars || added.share > 0. || cells_may_yield(model);
+    bool is_explicit_beyond = false;
+    if constexpr (dim == 2)
+      is_explicit_beyond = all.far.elastodynamic
+                           && all.far.elastodynamic->domain().scheme
+                                  == CouplingScheme::staggered;
+    return is_damped || has_bars || is_explicit_beyond || added.share > 0.
+           || cells_may_yield(model);
   }
 
   template <int dim>

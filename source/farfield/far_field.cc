@@ -78,6 +78,8 @@ namespace quoin
                                const unsigned int n_substeps,
                                const unsigned long n_steps)
   {
+    if (n_substeps != substeps)
+      last_incident.reset(); // see time_of_steps()
     substeps = n_substeps;
     if (kernel)
       return;
@@ -116,6 +118,7 @@ namespace quoin
 
   void FarField::begin_stage(State<2> &state, const bool continues)
   {
+    last_incident.reset();
     prepared_step = 0.;
     if (!continues)
       state.get<FarFieldState>() = FarFieldState();
@@ -132,14 +135,15 @@ namespace quoin
   void FarField::resume_stage(const State<2> &state)
   {
     const FarFieldState &far = state.get<FarFieldState>();
-    prepared_step            = 0.;
+    last_incident.reset();
+    prepared_step = 0.;
     if (!far.active || far.history.empty())
       return;
     history->restore(far.history);
     marching->restore(to_eigen(far.displacement), to_eigen(far.traction));
     frozen              = to_eigen(far.frozen);
     p_of_history_is_due = true;
-    find_incident(far);
+    incident_is_due     = true;
   }
 
   void FarField::start(const std::vector<CapturedNode<2>> &captured,
@@ -177,20 +181,36 @@ namespace quoin
   {
     const auto part
         = [&](const VectorXd &values) { return VectorXd(values(unknowns)); };
-    const double begin  = time_of_steps(far.n_steps),
-                 end    = time_of_steps(far.n_steps + 1);
     const VectorXd none = VectorXd::Zero(Eigen::Index(unknowns.size()));
+    incident_is_due     = false;
     incident_u = incident_velocity = incident_p = none;
     if (incident_displacement)
     {
-      incident_u = part(incident_displacement(end));
-      incident_velocity
-          = (incident_u - part(incident_displacement(begin))) / dt;
-      incident_p = part(incident_traction(begin, end));
+      const IncidentStep &wave = incident_step(far.n_steps);
+      incident_u               = part(wave.displacement);
+      incident_velocity        = (incident_u - part(wave.before)) / dt;
+      incident_p               = part(wave.traction);
     }
   }
 
-  VectorXd FarField::scattered_values(const std::uint64_t step) const
+  const FarField::IncidentStep &
+  FarField::incident_step(const std::uint64_t step)
+  {
+    if (last_incident && last_incident->step == step)
+      return *last_incident;
+    const double begin = time_of_steps(step), end = time_of_steps(step + 1);
+    IncidentStep wave;
+    wave.step         = step;
+    wave.before       = last_incident && last_incident->step + 1 == step
+                            ? std::move(last_incident->displacement)
+                            : incident_displacement(begin);
+    wave.displacement = incident_displacement(end);
+    wave.traction     = incident_traction(begin, end);
+    last_incident     = std::move(wave);
+    return *last_incident;
+  }
+
+  VectorXd FarField::scattered_values(const std::uint64_t step)
   {
     const auto n       = Eigen::Index(problem.boundary.n_unknowns());
     const double begin = time_of_steps(step), end = time_of_steps(step + 1);
@@ -198,10 +218,10 @@ namespace quoin
                                     : VectorXd(VectorXd::Zero(n));
     if (!incident_displacement)
       return values;
-    const VectorXd u = incident_displacement(end),
-                   t = incident_traction(begin, end);
+    const IncidentStep &wave = incident_step(step);
     for (Eigen::Index k = 0; k < n; ++k)
-      values[k] -= problem.traction_is_given[k] ? t[k] : u[k];
+      values[k] -= problem.traction_is_given[k] ? wave.traction[k]
+                                                : wave.displacement[k];
     return values;
   }
 
@@ -305,6 +325,8 @@ namespace quoin
     from_rest            = staggered && begins;
     if (far.substep == 0 && !from_rest)
       begin_element_step(state);
+    else if (incident_is_due)
+      find_incident(far);
 
     const double a  = 0.5 * step.dt_velocity * step.mass_damping;
     const auto node = [&](const unsigned int k) -> const CapturedNode<2> &

@@ -164,7 +164,8 @@ namespace quoin
                        + "), perhaps because memory is short. Coarsen the "
                          "mesh or use a larger machine.");
     if (!channel.is_complete())
-      fail_on_mesh(source, "gmsh ended while it read or meshed it. " + cure);
+      fail_on_mesh(source,
+                   "gmsh ended while it read or meshed the geometry. " + cure);
     return mesh;
   }
 } // namespace quoin

@@ -83,7 +83,7 @@ namespace quoin
           "frequency of all blocks and joints together, by the Lanczos "
           "iteration at the start of each stage; bound: a bound of that "
           "frequency by each node and what is joined to it, with which steps "
-          "are 1.0 to 1.4 times shorter. Models with bars, beams, dashpots in "
+          "are 0.7 to 1.0 times as long. Models with bars, beams, dashpots in "
           "joints or materials that yield, and stages with scaled masses keep "
           "the bound.");
       entries.nonnegative(

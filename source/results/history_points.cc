@@ -211,6 +211,22 @@ namespace quoin
                            [&] { return places.at(nodes.block_of_node(i)); });
     }
 
+    /** Whether @p point lies in or on a block that is not absent in the end.
+        Collective. */
+    template <int dim>
+    bool is_on_what_stays(const NodeMap<dim> &nodes,
+                          const std::vector<bool> &absent_in_the_end,
+                          const dealii::Point<dim> &point)
+    {
+      unsigned int stays = 0;
+      for (unsigned int c = 0; c < nodes.cells().size() && stays == 0; ++c)
+        if (!absent_in_the_end[nodes.table()
+                                   .group[nodes.blocks().block_of_cell(c)]]
+            && outside(nodes, c, point) == 0.)
+          stays = 1;
+      return dealii::Utilities::MPI::max(stays, nodes.communicator()) > 0;
+    }
+
     /** Whether @p key is the least of all ranks, on the first rank that has it:
         several may have the same joint. Collective. */
     template <typename Key>
@@ -252,10 +268,15 @@ namespace quoin
       const bool is_at_node    = distance <= rounding * node.point.norm();
       const unsigned int block = MPI::max(
           at.here ? nodes.block_of_node(node.entity) : 0U, communicator);
+      // Not on the wall of what goes, whose node may be nearest.
+      const bool stays = is_on_what_stays(nodes, absent_in_the_end, node.point);
       Nearest<dim> host(node.point);
       for (unsigned int c = 0; c < nodes.cells().size() && !is_at_node; ++c)
       {
         const unsigned int own = nodes.blocks().block_of_cell(c);
+        const bool goes        = absent_in_the_end[nodes.table().group[own]];
+        if (stays && goes)
+          continue;
         const double beyond
             = outside(nodes, c, node.point, own == block ? most_outside : 0.);
         if (std::isinf(beyond))
@@ -264,8 +285,7 @@ namespace quoin
         for (const auto &corner : corners(nodes, c))
           centroid += corner / (dim + 1.);
         // In place of a distance.
-        const double last
-            = absent_in_the_end[nodes.table().group[own]] ? 1. : 0.;
+        const double last = goes ? 1. : 0.;
         host.consider(
             node.point, c, [&] { return Nearest<dim>::place(0., centroid); },
             own == block ? beyond : 1. + last);
@@ -310,14 +330,11 @@ namespace quoin
         return absent_in_the_end
             [nodes.table().group[nodes.blocks().block_of_cell(cell)]];
       };
-      unsigned int stays = 0; // whether a block with the point does
-      for (unsigned int c = 0; c < nodes.cells().size() && stays == 0; ++c)
-        if (!is_absent(c) && outside(nodes, c, nearest.point) == 0.)
-          stays = 1;
-      stays = dealii::Utilities::MPI::max(stays, nodes.communicator());
+      const bool stays
+          = is_on_what_stays(nodes, absent_in_the_end, nearest.point);
       for (unsigned int c = 0; c < nodes.cells().size(); ++c)
       {
-        if (stays > 0 && is_absent(c))
+        if (stays && is_absent(c))
           continue;
         dealii::Point<dim> centroid;
         for (const auto &corner : corners(nodes, c))

@@ -269,10 +269,10 @@ namespace quoin
                 + rock.sets[s].name + "', "
                 + std::to_string(
                     std::lround(100. * area / (area + box.joint_area(s))))
-                + " % of it";
+                + " % of the set's joints";
         separator = ", ";
       }
-    text += "; smaller values of both cut more of them";
+    text += "; smaller values of these two entries leave out fewer";
     return text;
   }
 

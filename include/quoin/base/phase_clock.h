@@ -7,6 +7,7 @@
 #include <quoin/base/wall_clock.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ namespace quoin
   class PhaseClock
   {
   public:
-    /** Steps per measured step; prime, so that tasks of every tenth or
-        hundredth step are sampled in proportion. */
+    /** Steps per measured step on average; they follow on each other at random
+        distances, so that tasks of every so many steps are sampled in
+        proportion. */
     static constexpr unsigned int steps_per_sample = 17;
 
     /** Number of the phase @p name, added if it is new. */
@@ -38,13 +40,14 @@ namespace quoin
 
     void begin_step()
     {
-      if (++n_steps % steps_per_sample == 0)
-      {
-        weight = steps_per_sample;
-        last   = WallClock::now();
-      }
-      else
-        weight = 0.;
+      weight = 0.;
+      if (--until_sample > 0)
+        return;
+      weight = steps_per_sample;
+      last   = WallClock::now();
+      // A linear congruential generator, whose high digits vary most.
+      random       = 1664525U * random + 1013904223U;
+      until_sample = 1 + (random >> 16) % (2 * steps_per_sample - 1);
     }
 
     /** Books the time since begin_step() or the last lap to @p phase. */
@@ -83,8 +86,9 @@ namespace quoin
     std::vector<std::string> names;
     std::vector<double> seconds;
     WallClock::time_point last;
-    double weight        = 0.;
-    unsigned int n_steps = 0;
+    double weight             = 0.;
+    unsigned int until_sample = steps_per_sample;
+    std::uint32_t random      = 1;
   };
 } // namespace quoin
 

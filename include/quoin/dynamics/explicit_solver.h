@@ -85,8 +85,9 @@ namespace quoin
     {
       takes_assembled_step = true;
     }
-    /** How many times as long the critical step of the stage is, without
-        stiffness-proportional damping, as that of the bound of each node. */
+    /** How many times as long the critical step of blocks, joints and contacts
+        is in the stage, without stiffness-proportional damping, as that of the
+        bound of each node. */
     double step_gain() const
     {
       return gain;

@@ -18,6 +18,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -169,7 +170,8 @@ namespace quoin
     {
       incident_displacement = std::move(displacement);
       incident_traction     = std::move(traction);
-      energy_of_incident    = energy;
+      last_incident.reset();
+      energy_of_incident = energy;
     }
     /** Scale of the energy of the incident field [J]; 0: there is none. */
     double incident_energy() const
@@ -241,13 +243,24 @@ namespace quoin
     void begin_element_step(State<2> &state);
     void finish_element_step(State<2> &state);
     /** All over the boundary, of a step of the boundary elements. */
-    Eigen::VectorXd scattered_values(std::uint64_t step) const;
+    Eigen::VectorXd scattered_values(std::uint64_t step);
+    /** Incident waves all over the boundary in a step of the boundary elements:
+        displacements at its begin and end, mean tractions. */
+    struct IncidentStep
+    {
+      std::uint64_t step = 0;
+      Eigen::VectorXd before, displacement, traction;
+    };
+    /** That of @p step, found once. */
+    const IncidentStep &incident_step(std::uint64_t step);
 
     FarFieldDomain problem;
     InterfaceTransfer transfer;
     std::function<Eigen::VectorXd(double)>
         incident_displacement; /**< null: no incident wave */
     std::function<Eigen::VectorXd(double, double)> incident_traction;
+    std::optional<IncidentStep> last_incident;
+    bool incident_is_due      = false; /**< in a run that goes on */
     double energy_of_incident = 0.;
     double thickness;
     MPI_Comm communicator;

@@ -97,6 +97,19 @@ TEST(ExplicitSolver, TakesTheStepOfTheAssembledStiffness)
   yielding.solver.take_assembled_step();
   yielding.begin(stage_with({}));
   EXPECT_EQ(yielding.solver.critical_time_step(), bound);
+  ModelParameters damped = two_blocks();
+  for (JointSetParameters &set : damped.joints)
+    set.damping.normal = 1e-9;
+  TestRun dashpots(mesh, damped, {});
+  dashpots.solver.take_assembled_step();
+  dashpots.begin(stage_with({}));
+  EXPECT_LT(dashpots.solver.critical_time_step(), 1.01 * bound);
+  StageParameters heavy  = stage_with({});
+  heavy.scaled_time_step = 1.001 * bound;
+  TestRun scaled(mesh, two_blocks(), {});
+  scaled.solver.take_assembled_step();
+  scaled.begin(heavy);
+  EXPECT_LT(scaled.solver.critical_time_step(), 1.01 * bound);
   EXPECT_GT(step, 1.03 * bound);
   EXPECT_EQ(step, same);
   EXPECT_LT(calm, 10.);

@@ -260,7 +260,7 @@ TEST(RockBox, SaysHowMuchOfTheJointsIsLeftOut)
   EXPECT_NEAR(box.refused_area[0], 0., 1e-12);
   EXPECT_NEAR(box.refused_area[1], 24., 1e-12);
   EXPECT_NE(rock_box_report(rock, box).find(
-                "joints of 24 m^2 of set 'flat', 100 % of it"),
+                "joints of 24 m^2 of set 'flat', 100 % of the set's joints"),
             std::string::npos);
 }
 
