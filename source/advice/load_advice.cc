@@ -438,7 +438,7 @@ namespace quoin
           lowest = std::min(lowest, point[dim - 1]);
       const double height = level({ 0., 0. });
       Checks(advice, "load " + load.name + ": ")
-          .warn_if(height <= lowest, "the water level of ", height,
+          .warn_if(height < lowest, "the water level of ", height,
                    " m is below its boundary, whose lowest point is at ",
                    lowest,
                    " m, so that there is no pressure. Check the level and the "
