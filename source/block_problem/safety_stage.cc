@@ -20,18 +20,17 @@ namespace quoin
     /** Automatic failure displacement, by the mean displacement with which the
         loads have deformed the model, or by its diagonal. */
     constexpr double failure_by_loading = 10., failure_by_diagonal = 1e-3;
-    /** The same of implicit trials in which joints alone may fail, whose way
-        costs few steps: columns that lean on each other come to rest after
-        thirty times the elastic displacement, or more. */
-    constexpr double failure_by_slipping = 100.;
+    /** At least, by the diagonal, of implicit trials in which joints alone may
+        fail, whose way costs few steps: columns that lean on each other come to
+        rest after a thousand times the elastic displacement. */
+    constexpr double failure_of_joints = 5e-3;
     /** At least, by the slip that mobilises the peak strength of joints, and by
         the motion along bolts that mobilises these, which may be at 70 degrees
         to the joint that slips; implicit trials may go beyond the limit. */
     constexpr double failure_by_slip = 2., failure_by_bolts = 6.;
-    /** Share of the model's diagonal that is enough for slip and for bolts:
-       soft bolts without a strength would be mobilised where geometry has long
-       changed. */
-    constexpr double most_by_diagonal = 0.02;
+    /** Share of the model's diagonal that is enough for bolts: soft ones
+       without a strength would be mobilised where geometry has long changed. */
+    constexpr double most_for_bolts = 0.02;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
     /** Share of the failure displacement at which a trial of the implicit
@@ -118,11 +117,10 @@ namespace quoin
       /** Displacement beyond which a trial may fail [m]; collective. */
       double failure_displacement() const
       {
-        return failure_displacement(only_joints_fail() ? failure_by_slipping
-                                                       : failure_by_loading);
+        return failure_displacement(only_joints_fail());
       }
-      /** The same with @p by_loading mean elastic displacements. */
-      double failure_displacement(double by_loading) const;
+      /** The same, at least that of joints alone if @p of_joints. */
+      double failure_displacement(bool of_joints) const;
       /** Whether trials are implicit and find nothing but joints that fail.
           Collective. */
       bool only_joints_fail() const;
@@ -315,7 +313,7 @@ namespace quoin
                          state);
       const double limit = failure_displacement();
       // Trials that may go farther begin to move against drag as early.
-      const double early = failure_displacement(failure_by_loading);
+      const double early = failure_displacement(false);
       JumpWatch watch(limit);
       double last   = 0.; // largest displacement after the last step [m]
       trial.verdict = Verdict::undecided;
@@ -400,7 +398,7 @@ namespace quoin
     }
 
     template <int dim>
-    double SafetyStage<dim>::failure_displacement(const double by_loading) const
+    double SafetyStage<dim>::failure_displacement(const bool of_joints) const
     {
       if (safety.failure_displacement > 0.)
         return safety.failure_displacement;
@@ -423,9 +421,8 @@ namespace quoin
       double least          = 0.;
       for (const JointSetParameters &set : strong.joints)
         least = std::max(least, failure_by_slip * slip_of_peak(set.law));
-      if (force > 0. && by_loading > failure_by_loading)
-        least = std::max(least, std::min(by_loading * 2. * energy / force,
-                                         most_by_diagonal * diagonal));
+      if (of_joints)
+        least = std::max(least, failure_of_joints * diagonal);
       if constexpr (dim == 2)
         if (!model.reinforcement().empty())
         {
@@ -433,8 +430,7 @@ namespace quoin
               = failure_by_bolts
                 / (system.implicit_solver ? JumpWatch::far_beyond : 1.)
                 * mobilising_motion(model.reinforcement(), base, force);
-          least
-              = std::max(least, std::min(wanted, most_by_diagonal * diagonal));
+          least = std::max(least, std::min(wanted, most_for_bolts * diagonal));
         }
       return std::max(least, force > 0. && energy > 0.
                                  ? failure_by_loading * 2. * energy / force

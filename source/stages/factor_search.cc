@@ -47,9 +47,9 @@ namespace quoin
         "times the mean elastic displacement under the loads, which is twice "
         "the stored energy of blocks and joints divided by the weights and "
         "tractions, or a thousandth of the model's diagonal without loads; at "
-        "least twice the peak slip of joints of the law 'Barton-Bandis', and a "
-        "hundred times the mean elastic displacement, at most 2 % of the "
-        "diagonal, if the trials are implicit and joints alone may fail, "
+        "least twice the peak slip of joints of the law 'Barton-Bandis', and "
+        "0.5 % "
+        "of the diagonal if the trials are implicit and joints alone may fail, "
         "without bars, beams and materials that yield [m]");
     entries.choice(
         "Reduced strength", reduced,
