@@ -119,7 +119,8 @@ namespace quoin
       {
         return failure_displacement(only_joints_fail());
       }
-      /** The same, at least that of joints alone if @p of_joints. */
+      /** Displacement beyond which a trial may fail [m], which is at least
+          failure_of_joints if @p of_joints; collective. */
       double failure_displacement(bool of_joints) const;
       /** Whether trials are implicit and find nothing but joints that fail.
           Collective. */

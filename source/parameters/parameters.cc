@@ -84,8 +84,8 @@ namespace quoin
           "iteration at the start of each stage; bound: a bound of that "
           "frequency by each node and what is joined to it, with which steps "
           "are 0.7 to 1.0 times as long. Models with bars, beams, dashpots in "
-          "joints or materials that yield, and stages with scaled masses keep "
-          "the bound.");
+          "joints, materials that yield or 'Coupling = staggered', and stages "
+          "with scaled masses keep the bound.");
       entries.nonnegative(
           "Time step", parameters.time_step,
           "Time step, which must be below the critical one; 0: the critical "

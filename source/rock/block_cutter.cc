@@ -86,12 +86,17 @@ namespace quoin
     return std::abs(distance) <= tolerance ? 0 : distance > 0. ? 1 : -1;
   }
 
+  std::vector<SpacePoint> BlockCutter::corners(const unsigned int face) const
+  {
+    std::vector<SpacePoint> result;
+    for (const unsigned int v : all_faces[face].loop)
+      result.push_back(points[v]);
+    return result;
+  }
+
   SpaceVector BlockCutter::area(const unsigned int face) const
   {
-    std::vector<SpacePoint> loop;
-    for (const unsigned int v : all_faces[face].loop)
-      loop.push_back(points[v]);
-    return area_vector(loop);
+    return area_vector(corners(face));
   }
 
   double BlockCutter::volume(const unsigned int block) const
@@ -101,9 +106,7 @@ namespace quoin
     double sum            = 0.;
     for (const unsigned int f : blocks[block])
     {
-      std::vector<SpacePoint> loop;
-      for (const unsigned int v : all_faces[f].loop)
-        loop.push_back(points[v]);
+      const auto loop = corners(f);
       sum += std::abs(area_vector(loop) * (loop[0] - apex)) / 3.;
     }
     return sum;
@@ -118,10 +121,7 @@ namespace quoin
     double above = 0.;
     for (const unsigned int f : blocks[block])
     {
-      std::vector<SpacePoint> loop;
-      for (const unsigned int v : all_faces[f].loop)
-        loop.push_back(points[v]);
-      loop = clipped(loop, plane);
+      const auto loop = clipped(corners(f), plane);
       if (loop.size() > 2)
         above += (all_faces[f].inner == block ? 1. : -1.)
                  * (area_vector(loop) * (loop[0] - apex)) / 3.;
@@ -136,10 +136,7 @@ namespace quoin
     SpaceVector sum;
     for (const unsigned int f : blocks[block])
     {
-      std::vector<SpacePoint> loop;
-      for (const unsigned int v : all_faces[f].loop)
-        loop.push_back(points[v]);
-      loop = clipped(loop, plane);
+      const auto loop = clipped(corners(f), plane);
       if (loop.size() > 2)
         sum += (all_faces[f].inner == block ? 1. : -1.) * area_vector(loop);
     }

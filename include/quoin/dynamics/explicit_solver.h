@@ -161,8 +161,8 @@ namespace quoin
     double passage_time() const;
     /** Whether the critical step is that of the bound in any case: with
         stiffness or damping that highest_squared_frequency() does not know,
-        with cells that may yield and then deform, and with masses scaled by the
-        bound. */
+        such as that of a far field with staggered coupling, with cells that may
+        yield and then deform, and with masses scaled by the bound. */
     bool keeps_bound() const;
     /** Largest omega^2 of blocks, joints and contacts with the masses of the
         stage: by the bound of each node or, if that is wanted, of the assembled

@@ -92,6 +92,8 @@ namespace quoin
   private:
     using Edge = std::pair<unsigned int, unsigned int>;
 
+    /** Corners of a face, in its order [m]. */
+    std::vector<dealii::Point<3>> corners(unsigned int face) const;
     /** Volumes below and above @p plane of a block [m^3]. */
     std::pair<double, double> volumes(unsigned int block,
                                       const JointPlane &plane) const;
