@@ -31,6 +31,10 @@ namespace quoin
     /** Share of the model's diagonal that is enough for bolts: soft ones
        without a strength would be mobilised where geometry has long changed. */
     constexpr double most_for_bolts = 0.02;
+    /** Local damping of trials that confirm a failure: it lets blocks slide
+        faster than the default does and damps chatter enough, but not the swing
+        of blocks that bars or liners catch, which looks like a failure. */
+    constexpr double confirming_damping = 0.5;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
     /** Share of the failure displacement at which a trial of the implicit
@@ -111,6 +115,11 @@ namespace quoin
       /** Whether a failure may come from joints that chatter under adaptive
           damping, so that a trial with local damping must confirm it. */
       bool needs_confirmation() const;
+      bool is_reinforced() const
+      {
+        return system.solver->loads().beams
+               || !system.model->reinforcement().empty();
+      }
       /** Looks whether a signal asks the run to end, which gives up the trial:
           a resumed run begins it anew. Collective. */
       bool is_interrupted();
@@ -203,9 +212,10 @@ namespace quoin
                     verdict_text(trial.verdict),
                     " under adaptive damping, which chattering joints may "
                     "mislead; it is tried again with local damping");
-        StageParameters local   = stage;
-        local.damping           = DampingType::local;
-        local.local_coefficient = default_local_damping;
+        StageParameters local = stage;
+        local.damping         = DampingType::local;
+        local.local_coefficient
+            = is_reinforced() ? default_local_damping : confirming_damping;
         trial.n_steps += state.stage_step;
         begin_trial(local);
         come_to_rest(local, trial);
@@ -385,15 +395,10 @@ namespace quoin
     template <int dim>
     bool SafetyStage<dim>::only_joints_fail() const
     {
-      const Model<dim> &model = *system.model;
-      if constexpr (dim == 2)
-        if (!model.reinforcement().empty())
-          return false;
-      return system.implicit_solver && safety.reduces_joints
-             && !system.solver->loads().beams
+      return system.implicit_solver && safety.reduces_joints && !is_reinforced()
              && system.nodes->faces().n_global_joints > 0
              && dealii::Utilities::MPI::max(
-                    unsigned(model.blocks().cell_data().is_plastic()),
+                    unsigned(system.model->blocks().cell_data().is_plastic()),
                     context.run.communicator)
                     == 0;
     }
@@ -493,8 +498,7 @@ namespace quoin
                     "elements that yield are stronger than the ground itself, "
                     "so factors are above those of finer meshes: "
                     "scripts/mesh_convergence estimates by how much");
-      if (system.solver->loads().beams
-          || !system.model->reinforcement().empty())
+      if (is_reinforced())
         log.message(begin, "bolts, cables, beams and the interfaces of liners "
                            "kept their strength");
       log.message(begin, search.trials().size(), " trials of ",
