@@ -115,6 +115,9 @@ namespace quoin
     {
       Bits steady{};
       points.elastic = Bits{};
+      // Lanes without a point have forces, too, times an area of zero.
+      points.sigma = Value{};
+      points.tau   = typename PointLanes<lanes, dim>::Slips{};
       for (int l = 0; l < lanes; ++l)
       {
         auto point       = read_point(law, points.arrays, points.first + l);

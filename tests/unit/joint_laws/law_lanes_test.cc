@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <map>
 #include <random>
 
@@ -342,6 +343,44 @@ TEST(LawLanes, LawsThatHaveNone)
   expect_same<4, 3>(fault, 2e-4, 1e-3);
   expect_same<8, 2>(rock_test::rough(), 1e-4, 1e-4);
   expect_same<8, 3>(rock_test::rough(), 1e-4, 1e-4);
+}
+
+namespace
+{
+  /** The tractions of lanes without a point, whose forces are these times an
+      area of zero, are finite. */
+  template <typename Law>
+  void expect_finite_beside(const Law &law)
+  {
+    constexpr int lanes = 8;
+    using F             = LaneFunctions<lanes>;
+    Pack<lanes, 2> pack;
+    PointArrays<2> arrays = pack.arrays();
+    write_point(PointOf<Law, 2>(), arrays, 0);
+    PointLanes<lanes, 2> points;
+    std::memset(static_cast<void *>(&points), 0xff,
+                sizeof(points)); // not a number
+    points.arrays  = arrays;
+    points.first   = 0;
+    points.opening = F::Value{};
+    points.slip    = { { F::Value{} } };
+    const LawLanes<Law, lanes, 2> laws(law);
+    DissipationLanes<lanes> lost;
+    laws.try_elastic(points);
+    laws.update(points, F::mask_of(1), F::Value{} + 1., lost);
+    for (int l = 0; l < lanes; ++l)
+    {
+      EXPECT_TRUE(std::isfinite(points.sigma[l])) << l;
+      EXPECT_TRUE(std::isfinite(points.tau.at(l))) << l;
+    }
+  }
+} // namespace
+
+TEST(LawLanes, LanesWithoutPoint)
+{
+  expect_finite_beside(brittle());
+  expect_finite_beside(composite_test::wall());
+  expect_finite_beside(rock_test::rough());
 }
 
 template <int lanes, int n>
