@@ -160,6 +160,7 @@ namespace quoin
       void match_outer_sides();
       void check_names_on_boundary() const;
       void fill_faces();
+      void draw_together();
 
       const MeshData<dim> &data;
       const SplitOptions &options;
@@ -547,6 +548,38 @@ namespace quoin
       }
     }
 
+    /** What is left of a distance between the sides of a joint would count as
+        opening and slip. */
+    template <int dim>
+    void Splitter<dim>::draw_together()
+    {
+      DisjointSets places(mesh.n_vertices());
+      for (const JointFace<dim> &face : mesh.joint_faces)
+        for (unsigned int k = 0; k < dim; ++k)
+          places.unite(face.lower[k], face.upper[k]);
+      const auto [place, n_places] = places.numbers();
+      std::vector<Point> first(n_places);
+      std::vector<dealii::Tensor<1, dim>> sum(n_places);
+      std::vector<unsigned int> n(n_places, 0);
+      std::vector<bool> is_one(n_places, true);
+      for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
+      {
+        const unsigned int p = place[v];
+        if (n[p]++ == 0)
+          first[p] = mesh.vertices[v];
+        is_one[p] = is_one[p] && mesh.vertices[v] == first[p];
+        sum[p] += mesh.vertices[v] - first[p];
+      }
+      for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
+        if (const unsigned int p = place[v]; !is_one[p])
+        {
+          const Point middle = first[p] + sum[p] / double(n[p]);
+          mesh.largest_shift
+              = std::max(mesh.largest_shift, middle.distance(mesh.vertices[v]));
+          mesh.vertices[v] = middle;
+        }
+    }
+
     template <int dim>
     void Splitter<dim>::run()
     {
@@ -555,6 +588,7 @@ namespace quoin
       mesh.group_names        = data.group_names;
       mesh.face_names         = data.face_names;
       mesh.n_reoriented_cells = data.n_reoriented;
+      mesh.largest_shift      = 0.;
 
       resolve_names();
       find_neighbours();
@@ -565,6 +599,7 @@ namespace quoin
       match_outer_sides();
       check_names_on_boundary();
       fill_faces();
+      draw_together();
       number_blocks(mesh, block_of_cell, n_blocks);
     }
   } // namespace

@@ -522,6 +522,7 @@ namespace quoin
     report.quadratic          = mesh.quadratic;
     report.mixed              = mesh.mixed;
     report.n_reoriented_cells = mesh.n_reoriented_cells;
+    report.largest_shift      = mesh.largest_shift;
     if (report.n_cells == 0)
       return report;
     const auto corners
@@ -590,6 +591,10 @@ namespace quoin
            << n_reoriented_cells
            << (is_plane ? " clockwise triangles" : " tetrahedra")
            << " turned over";
+    // Beyond the digits that a file has.
+    if (largest_shift > 1e-6 * shortest_edge)
+      text << "\nblocks drawn apart: nodes moved by up to " << largest_shift
+           << " m to meet those across the joint";
     return text.str();
   }
 

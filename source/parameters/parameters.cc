@@ -217,7 +217,7 @@ namespace quoin
       // Before plausibility, which looks at more than a run uses.
       for (const auto &doubts :
            { input.idle_overrides(prm), implausible_values(top, parameters),
-             idle_damping(top, parameters) })
+             idle_damping(top, parameters), idle_properties(prm, top) })
         parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
                                    doubts.end());
     }

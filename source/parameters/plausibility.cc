@@ -468,6 +468,42 @@ namespace quoin
     return warnings;
   }
 
+  std::vector<std::string> idle_properties(const NotedParameters &prm,
+                                           const ParameterSection &top)
+  {
+    std::vector<std::string> warnings;
+    for (const std::string kind : { "Materials", "Joints" })
+      for (const std::string &name : ParameterSection(top, kind).list("Names"))
+      {
+        const std::string path = kind + "/" + name;
+        // An option may choose another law for a file that is made for one.
+        const auto law = prm.places.find(path + "/Law");
+        if (law != prm.places.end()
+            && law->second.find(" with --set") != std::string::npos)
+          continue;
+        std::string names, place;
+        for (auto entry = prm.places.lower_bound(path + "/");
+             entry != prm.places.end()
+             && entry->first.rfind(path + "/", 0) == 0;
+             ++entry)
+          if (prm.read.count(entry->first) == 0
+              && entry->second.find(" with --set") == std::string::npos)
+          {
+            names += (names.empty() ? "'" : ", '")
+                     + entry->first.substr(path.size() + 1) + "'";
+            if (place.empty())
+              place = entry->second;
+          }
+        if (!names.empty())
+          warnings.push_back(
+              place + section_phrase(path) + ": 'Law = "
+              + ParameterSection(ParameterSection(top, kind), name).text("Law")
+              + "' does not read " + names
+              + ". Choose the law that is meant, or remove them.");
+      }
+    return warnings;
+  }
+
   std::vector<std::string> long_time_files(const Parameters &parameters)
   {
     /** How many times as long as the run, with how many samples in it and at

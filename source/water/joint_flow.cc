@@ -18,8 +18,8 @@ namespace quoin
 {
   namespace
   {
-    /** Largest change of a pressure, by the largest pressure, at which an
-        equilibrium is one [-]. */
+    /** Largest change of a pressure, by the largest pressure or that of water
+        as high as a channel is long, at which an equilibrium is one [-]. */
     constexpr double pressure_tolerance    = 1e-6;
     constexpr unsigned int most_iterations = 60;
   } // namespace
@@ -446,6 +446,9 @@ namespace quoin
     const double dt       = std::max(0., end.total - before.time);
     FlowSolution solution = solve(end, dt, before);
     double change = 0., largest = 0.;
+    // Water that falls freely has no pressure but that of rounding.
+    for (const FlowChannel &channel : flow_network.channels())
+      largest = std::max(largest, given.fluid.unit_weight * channel.length);
     for (unsigned int i = 0; i < solution.pressure.size(); ++i)
     {
       change

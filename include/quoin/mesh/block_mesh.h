@@ -93,6 +93,10 @@ namespace quoin
     /** Cells of negative volume in the file, which were turned over. */
     unsigned int n_reoriented_cells = 0;
 
+    /** How far at most vertices of blocks drawn apart were moved to meet those
+        across their joints [m]. */
+    double largest_shift = 0.;
+
     unsigned int n_blocks() const
     {
       return block_first_cell.empty() ? 0 : block_first_cell.size() - 1;

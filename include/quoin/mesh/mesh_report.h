@@ -53,6 +53,7 @@ namespace quoin
     unsigned int n_tied_joint_faces = 0;
     /** Number of cells with the opposite orientation in the file. */
     unsigned int n_reoriented_cells = 0;
+    double largest_shift            = 0.; /**< see BlockMesh [m] */
 
     /**
      * Where outer faces lie on each other without coinciding: non-matching
@@ -81,8 +82,8 @@ namespace quoin
           &mixed &joint_size &total_joint_size &shortest_edge &longest_edge
               &median_edge &smallest_height &smallest_position &smallest_angle
                   &n_joint_ends &n_tied_joint_faces &n_reoriented_cells
-                      &unmatched_size &unmatched_position &overlaps
-                          &overlap_depth &overlap_position &box;
+                      &largest_shift &unmatched_size &unmatched_position
+                          &overlaps &overlap_depth &overlap_position &box;
     }
 
     /** Lines of text without a final newline. */

@@ -32,6 +32,13 @@ namespace quoin
                                         const Parameters &parameters);
 
   /**
+   * Warnings about properties of materials and joints that the file of @p top
+   * gives and that their law does not read. @p prm has notes of what was read.
+   */
+  std::vector<std::string> idle_properties(const NotedParameters &prm,
+                                           const ParameterSection &top);
+
+  /**
    * Warnings about tables and records of @p parameters that last far longer
    * than all stages, of which the run reads next to nothing: their times may
    * be in milliseconds. None if no stage ends by time.

@@ -240,6 +240,12 @@ TEST(BlockSplitter, FindsJointsOfBlocksThatAreApart)
   EXPECT_NEAR(joint_length(mesh, ""), 1., 1e-12);
   EXPECT_EQ(mesh.boundary_faces.size(), 8U);
 
+  // The joint is closed: nodes have met half way.
+  for (const JointFace<2> &face : mesh.joint_faces)
+    for (unsigned int k = 0; k < 2; ++k)
+      EXPECT_EQ(mesh.vertices[face.lower[k]], mesh.vertices[face.upper[k]]);
+  EXPECT_NEAR(mesh.largest_shift, std::sqrt(.5) * 3e-4, 1e-12);
+
   // Named joints may lie on either side; that is no dangling curve.
   data.faces[0] = { { node_at(data, 3e-4, 1. - 3e-4),
                       node_at(data, 1. + 3e-4, 1. - 3e-4) } };
