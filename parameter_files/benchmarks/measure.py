@@ -5,10 +5,12 @@
 a triangle, a point of a joint and a pair of contacts cost; see README.md.
 
   measure.py [--quoin build/quoin] [--repeat 3] [--only joints]
-             [--against ANOTHER_QUOIN]
+             [--against ANOTHER_QUOIN] [--whole]
 
 With --against the runs of both programs alternate, and the last column is how
-many times as fast a step of the first one is.
+many times as fast a step of the first one is. With --whole it runs walls,
+arches, slopes and piles from beginning to end instead, and the wall of the
+joints on two processes; the last column compares their times.
 """
 import argparse
 import json
@@ -48,11 +50,29 @@ BENCHMARKS = [
 ]
 
 
-def run(quoin, file, overrides):
+# (name, parameter file, overrides, number of processes) of whole runs.
+WHOLE = [
+    ("wall J4D to 4.5 mm", WALLS + "j4d.prm", [], 1),
+    ("wall J2G", WALLS + "j2g.prm", [], 1),
+    ("wall J6D", WALLS + "j6d.prm", [], 1),
+    ("wall J7D", WALLS + "j7d.prm", [], 1),
+    ("wall J4D, implicit", WALLS + "j4d.prm", ["Solver=implicit"], 1),
+    ("dry wall SW.30", "../masonry/dry_walls/sw30.prm", [], 1),
+    ("dry wall SW.100", "../masonry/dry_walls/sw100.prm", [], 1),
+    ("arch_collapse", "../masonry/arch_collapse/case.prm", [], 1),
+    ("pile", "../verification/pile/case.prm", [], 1),
+    ("slope_safety", "../rock/slope_safety/case.prm", [], 1),
+    ("wall of joints", "joints/case.prm", [], 1),
+    ("wall of joints, two processes", "joints/case.prm", [], 2),
+]
+
+
+def run(quoin, file, overrides, n_processes=1):
     """The summary of one run."""
     with tempfile.TemporaryDirectory(prefix="quoin_") as output:
-        command = [quoin, os.path.join(HERE, file), "--quiet", "--output",
-                   output]
+        command = ["mpirun", "-np", str(n_processes)] * (n_processes > 1)
+        command += [quoin, os.path.join(HERE, file), "--quiet", "--output",
+                   output, "--set", "Output/Measure bandwidth=yes"]
         for override in overrides:
             command += ["--set", override]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
@@ -74,6 +94,26 @@ def fastest(quoins, file, overrides, repeat):
                     or seconds_a_step(summary) < seconds_a_step(best[i])):
                 best[i] = summary
     return best
+
+
+def whole_runs(quoins, only, repeat):
+    """Prints the times of whole runs."""
+    names = ["run", "steps", "time [s]"]
+    names += ["time before [s]", "times as fast"] * (len(quoins) > 1)
+    print("| " + " | ".join(names) + " |\n" + "|" + "---|" * len(names))
+    for name, file, overrides, n_processes in WHOLE:
+        if only not in name:
+            continue
+        seconds = [float("inf")] * len(quoins)
+        for _ in range(repeat):
+            for i, quoin in enumerate(quoins):
+                summary = run(quoin, file, overrides, n_processes)
+                seconds[i] = min(seconds[i], summary["wall time [s]"])
+                steps = summary["steps"] if i == 0 else steps
+        cells = [name, str(steps), f"{seconds[0]:.3g}"]
+        if len(quoins) > 1:
+            cells += [f"{seconds[1]:.3g}", f"{seconds[1] / seconds[0]:.2f}"]
+        print("| " + " | ".join(cells) + " |", flush=True)
 
 
 def row(name, best):
@@ -107,8 +147,12 @@ def main():
     parser.add_argument("--against")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--only", default="")
+    parser.add_argument("--whole", action="store_true")
     options = parser.parse_args()
     quoins = [options.quoin] + ([options.against] if options.against else [])
+    if options.whole:
+        whole_runs(quoins, options.only, options.repeat)
+        return
     names = ["benchmark", "cells", "joint points", "steps", "step [us]",
              "million cells a second", "joint point [ns]",
              "million contact updates a second", "of the memory bandwidth"]

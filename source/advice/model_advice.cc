@@ -394,6 +394,41 @@ namespace quoin
                      "compression.");
     }
 
+    /** Whether a stage or the far field takes @p material. */
+    bool is_for_later(const MaterialParameters &material,
+                      const Parameters &parameters)
+    {
+      return parameters.boundary.material == material.name
+             || std::any_of(parameters.stages.begin(), parameters.stages.end(),
+                            [&](const StageParameters &stage)
+                            {
+                              return std::any_of(
+                                  stage.materials.begin(),
+                                  stage.materials.end(),
+                                  [&](const auto &pair)
+                                  { return pair.second == material.name; });
+                            });
+    }
+
+    /** Warns of support pressure of excavated blocks that is left in the end.
+     */
+    void check_release(const std::vector<StageParameters> &stages,
+                       Advice &advice)
+    {
+      const StageParameters *last = nullptr;
+      for (const StageParameters &stage : stages)
+        if (!stage.safety)
+          last = &stage;
+      if (last)
+        Checks(advice, "stage " + last->name + ": ")
+            .warn_if(last->release < 1., 100. * (1. - last->release),
+                     " % of the forces of excavated blocks are never released, "
+                     "as its 'Release = ",
+                     last->release,
+                     "' is the last one. Give 1 in the end, "
+                     "unless a support that is not modelled bears the rest.");
+    }
+
     template <int dim>
     void check_materials(const Parameters &parameters, const Model<dim> &model,
                          Advice &advice)
@@ -401,10 +436,10 @@ namespace quoin
       /** Poisson's ratio above which constant-strain triangles in plane strain
           and tetrahedra lock. */
       constexpr double locking_poisson = 0.45;
-      if (parameters.cells.kind != TriangleKind::plain
-          || parameters.cells.mixed_tetrahedra
-          || parameters.model.plane != PlaneAssumption::plane_strain)
-        return;
+      const bool can_lock
+          = parameters.cells.kind == TriangleKind::plain
+            && !parameters.cells.mixed_tetrahedra
+            && parameters.model.plane == PlaneAssumption::plane_strain;
       std::vector<unsigned int> is_used(parameters.model.materials.size(), 0);
       for (unsigned int c = 0; c < model.nodes().cells().size(); ++c)
         is_used[material_of_cell(model, c)] = 1;
@@ -413,16 +448,22 @@ namespace quoin
       for (unsigned int m = 0; m < is_used.size(); ++m)
       {
         const MaterialParameters &material = parameters.model.materials[m];
-        Checks(advice, "material " + material.name + ": ")
-            .warn_if(is_used[m] && !material.rigid
-                         && material.elastic.poisson > locking_poisson,
-                     "with Poisson's ratio ", material.elastic.poisson,
-                     dim == 2 ? " plain triangles lock in plane strain, they "
-                                "are too stiff. Take 'Triangles = crossed' in "
-                                "section 'Mesh'."
-                              : " plain tetrahedra lock, they are too stiff. "
-                                "Take 'Tetrahedra = mixed' in section "
-                                "'Mesh'.");
+        Checks checks(advice, "material " + material.name + ": ");
+        checks.warn_if(!is_used[m] && !material.groups.empty()
+                           && !is_for_later(material, parameters),
+                       "it is that of no block, and no stage gives it to one "
+                       "by its 'Materials'. Correct its 'Groups', or remove "
+                       "it from 'Names'.");
+        checks.warn_if(can_lock && is_used[m] && !material.rigid
+                           && material.elastic.poisson > locking_poisson,
+                       "with Poisson's ratio ", material.elastic.poisson,
+                       dim == 2
+                           ? " plain triangles lock in plane strain, they "
+                             "are too stiff. Take 'Triangles = crossed' in "
+                             "section 'Mesh'."
+                           : " plain tetrahedra lock, they are too stiff. "
+                             "Take 'Tetrahedra = mixed' in section "
+                             "'Mesh'.");
       }
     }
 
@@ -460,6 +501,7 @@ namespace quoin
     check_initial_stress(model, advice);
     check_stress_at_rest(parameters, model, state, advice);
     check_forgotten_loads(parameters, advice);
+    check_release(parameters.stages, advice);
     check_pressures(parameters, model.nodes(), advice);
     check_signals(parameters, dim, advice);
     check_materials(parameters, model, advice);

@@ -200,6 +200,40 @@ namespace quoin
         check_damped_motion(run, checks);
     }
 
+    /** Warns of a ratio at which loads that are small beside others, such as
+        water beside weight, are far from their equilibrium. */
+    void check_static_ratio(const StageOfRun &run, Checks &checks)
+    {
+      constexpr double largest = 1e-3;
+      checks.warn_if(
+          run.stage.end != StageEnd::time && run.stage.static_ratio > largest,
+          "'Static ratio = ", run.stage.static_ratio,
+          "' ends it while forces of that share of all applied ones are out of "
+          "balance: reactions and displacements may be off by more than that. "
+          "Take 1e-5.");
+    }
+
+    /** Warns of stiffness-proportional damping that no mode overcomes, such as
+        a damping ratio that was taken for the coefficient. @p passage: of a
+        shear wave, twice along the model's diagonal [s]. */
+    void check_overdamping(const StageOfRun &run, const double passage,
+                           Checks &checks)
+    {
+      constexpr double largest = 10.;
+      if (run.stage.damping != DampingType::rayleigh || passage == 0.)
+        return;
+      const double frequency = 0.5 / passage; // of the lowest elastic mode
+      const double ratio
+          = constants::pi * run.stage.stiffness_coefficient * frequency;
+      checks.warn_if(ratio > largest, "'Rayleigh stiffness coefficient = ",
+                     run.stage.stiffness_coefficient,
+                     "' s is a damping ratio of ", ratio,
+                     " at the lowest elastic frequency, about ", frequency,
+                     " Hz: the model creeps to its equilibrium with that time "
+                     "constant. It is no damping ratio: for a ratio D at the "
+                     "frequency f give D / (pi f).");
+    }
+
     /** Warns of shaking by gravity, which water with added mass does not feel.
      */
     void check_moving_water(const StageOfRun &run, Checks &checks)
@@ -701,6 +735,7 @@ namespace quoin
     check_damping(run, checks);
     check_supports(run, checks);
     check_moving_water(run, checks);
+    check_static_ratio(run, checks);
     check_weight(run, checks);
     check_units(run, model.nodes().table().diagonal(), time_step, checks);
     const auto sizes = cell_sizes(model, state, run);
@@ -714,6 +749,7 @@ namespace quoin
             = std::max(passage, 2. * model.nodes().table().diagonal() / speed);
       }
     check_pulses(run, passage, checks);
+    check_overdamping(run, passage, checks);
     if (rise > 0.) // else nothing deforms
       check_jumps(run, rise, checks);
     check_edges(run, sizes, checks);

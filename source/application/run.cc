@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -42,21 +43,6 @@ namespace quoin
       return mesh_any_gmsh_geometry(made.geometry, maker, communicator,
                                     parameters.dimension, parameters.cells);
     }
-
-    /** The kind of problem that @p parameters describe. */
-    std::unique_ptr<Problem> make_problem(const Parameters &parameters,
-                                          const RunContext &run)
-    {
-      if (parameters.is_boundary_model)
-        return std::make_unique<BoundaryProblem>(parameters, run);
-      AnyMeshData mesh = read_mesh_data(parameters, run.communicator);
-      if (auto *plane = std::get_if<MeshData<2>>(&mesh))
-        return std::make_unique<BlockProblem<2>>(parameters, std::move(*plane),
-                                                 run);
-      check_three_dimensions(parameters);
-      return std::make_unique<BlockProblem<3>>(
-          parameters, std::move(std::get<MeshData<3>>(mesh)), run);
-    }
   } // namespace
 
   Run::Run(const Parameters &parameters, const RunOptions &options,
@@ -72,12 +58,38 @@ namespace quoin
   {
   }
 
+  void Run::make_problem()
+  {
+    if (parameters.is_boundary_model)
+    {
+      problem = std::make_unique<BoundaryProblem>(parameters, context);
+      return;
+    }
+    const auto start = WallClock::now();
+    AnyMeshData mesh = read_mesh_data(parameters, communicator);
+    mesh_time        = seconds_since(start);
+    if (auto *plane = std::get_if<MeshData<2>>(&mesh))
+    {
+      problem = std::make_unique<BlockProblem<2>>(parameters, std::move(*plane),
+                                                  context);
+      return;
+    }
+    check_three_dimensions(parameters);
+    problem = std::make_unique<BlockProblem<3>>(
+        parameters, std::move(std::get<MeshData<3>>(mesh)), context);
+  }
+
   int Run::run()
   {
-    problem = make_problem(parameters, context);
+    const auto start = WallClock::now();
+    make_problem();
+    set_up_time = seconds_since(start);
     problem->report();
     if (options.check)
+    {
+      log.message("set-up: ", set_up_text());
       return 0;
+    }
     Interruption::begin_steps();
     open_outputs();
     if (has_ended())
@@ -93,6 +105,7 @@ namespace quoin
     }
     else if (options.resume)
       problem->restore(stage_index);
+    set_up_time = seconds_since(start);
     while (!has_ended() && signal == 0)
       run_stage();
     return signal;
@@ -229,7 +242,9 @@ namespace quoin
             { "version", QUOIN_VERSION },
             { "finished", has_ended() },
             { "ranks", dealii::Utilities::MPI::n_mpi_processes(communicator) },
-            { "wall time [s]", wall_time } };
+            { "wall time [s]", wall_time },
+            { "set-up time [s]", set_up_time },
+            { "mesh time [s]", mesh_time } };
     problem->summarise(summary, seconds);
     context.on_first_rank([&]()
                           { write_json(output + "/summary.json", summary); });
@@ -238,7 +253,17 @@ namespace quoin
     const Problem::ClosingLines words = problem->closing_lines(summary);
     log.message("finished: ", words.what, " in ",
                 duration_text(summary["wall time [s]"].get<double>()), ", ",
-                words.figures);
+                words.figures, "\nset-up: ", set_up_text());
+  }
+
+  std::string Run::set_up_text() const
+  {
+    const auto seconds_text = [](const double seconds)
+    { return text_of(std::round(100. * seconds) / 100., " s"); };
+    return seconds_text(set_up_time)
+           + (parameters.is_boundary_model
+                  ? " before the first step"
+                  : ", of which the mesh " + seconds_text(mesh_time));
   }
 
   template <typename Archive>

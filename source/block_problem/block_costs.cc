@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/wall_clock.h>
 #include <quoin/block_problem/block_costs.h>
 #include <quoin/problems/planned_output.h>
 #include <quoin/results/field_output.h>
@@ -67,8 +68,12 @@ namespace quoin
         const FarField &far = *system.solver->loads().far.elastodynamic;
         period = far.boundary_history().period() * far.n_substeps();
         // The first two prepare matrices for their steps.
+        const auto begin = WallClock::now();
         for (unsigned int i = 0; i < 2; ++i)
           take_trial_step(context, stage, start, state);
+        log.message("stage ", stage.name, ": ",
+                    seconds_text(seconds_since(begin)),
+                    " for the influence matrices of the boundary elements");
       }
       const double seconds = seconds_per_call(
           [&]() { take_trial_step(context, stage, start, state); },

@@ -476,15 +476,25 @@ namespace quoin
                                               const double seconds) const
   {
     namespace MPI = dealii::Utilities::MPI;
-    const double bytes
-        = step_bytes(system.mesh_report.n_nodes, system.mesh_report.n_cells);
+    StepSize size{ double(system.mesh_report.n_nodes),
+                   double(system.mesh_report.n_cells),
+                   double(dim) * system.nodes->faces().n_global_joints, 0. };
+    if (summary.contains("contacts"))
+    {
+      size.n_contacts     = summary["contacts"].get<double>();
+      size.n_joint_points = 0.; // most are contacts
+    }
+    const double bytes    = step_bytes(dim, size);
     const double measured = MPI::sum(
         memory_bandwidth(bytes / MPI::n_mpi_processes(run.communicator)),
         run.communicator);
-    summary["memory bandwidth [B/s]"] = measured;
-    summary["share of memory bandwidth"]
-        = seconds > 0. ? bytes * double(context.n_done) / seconds / measured
-                       : 0.;
+    const double moved
+        = seconds > 0. ? bytes * double(context.n_done) / seconds : 0.;
+    summary["bytes of a step [B]"]       = bytes;
+    summary["they fit into"]             = smallest_store(bytes);
+    summary["bytes moved [B/s]"]         = moved;
+    summary["memory bandwidth [B/s]"]    = measured;
+    summary["share of memory bandwidth"] = moved / measured;
   }
 
   template <int dim>

@@ -220,6 +220,13 @@ namespace quoin
   {
     std::vector<double> row = outputs.write_row(state);
     record_loads(row.front());
+    if (stage.damping == DampingType::local && !stage.slows_loads()
+        && system.explicit_solver)
+    {
+      const Energies &energies = system.solver->energies();
+      context.damping_shares[index].add_row(energies.kinetic
+                                            / energies.throughput());
+    }
     if (conditions.empty() || is_to_end())
       return;
     // One rank decides for all, whatever their sums are rounded to.
@@ -375,6 +382,17 @@ namespace quoin
                   "wrong by several times that fraction, and a collapse may "
                   "come too early or too late. Take 'Damping = adaptive', or "
                   "'Rayleigh' with a stiffness coefficient.");
+    else if (stage.end == StageEnd::time && share.is_of_motion())
+      log.warning("stage ", stage.name, ": more than ",
+                  100. * LocalDampingShare::moving,
+                  " % of the energy throughput was kinetic in ",
+                  100. * double(share.n_moving) / double(share.n_rows),
+                  " % of the rows of histories: blocks that fall, fly or rock "
+                  "do so with ",
+                  1. - stage.local_coefficient,
+                  " of their acceleration under local damping. Take 'Damping = "
+                  "none' with a 'Restitution' of joints, or 'Rayleigh' with a "
+                  "stiffness coefficient.");
   }
 
   template <int dim>

@@ -79,6 +79,15 @@ namespace quoin
     if (passivity)
       log.message(passivity->advice());
     log.messages(stability_lines(settings, geometry.boundary, dt, n_steps));
+    /** c1 dt / L beyond which peaks are lost. */
+    constexpr double most = 5.;
+    const double ratio
+        = medium.c1 * dt / geometry.boundary.lengths().maxCoeff();
+    if (ratio > most)
+      log.warning("P waves pass ", ratio,
+                  " of the longest boundary elements in a time step, more than "
+                  "5: peaks are cut off. Take a 'Step ratio' of 1, or a "
+                  "shorter 'Time step'.");
   }
 
   VectorXd BoundarySystem::scattered_values(const double begin,

@@ -3,6 +3,7 @@
 
 #include <quoin/operators/state.h>
 #include <quoin/base/wall_clock.h>
+#include <quoin/contact_geometry/contact_state.h>
 #include <quoin/results/measurements.h>
 #include <quoin/output/progress.h>
 
@@ -12,6 +13,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <sstream>
+#include <utility>
+
+#include <unistd.h>
 
 namespace quoin
 {
@@ -111,11 +115,28 @@ namespace quoin
     return best;
   }
 
-  double step_bytes(const double n_nodes, const double n_cells)
+  double step_bytes(const int dim, const StepSize &size)
   {
-    constexpr double per_node = 2 * sizeof(NodeRecord<2>)
-                                + 4 * sizeof(dealii::Tensor<1, 2>)
-                                + sizeof(double);
-    return n_nodes * per_node + n_cells * sizeof(std::uint32_t);
+    // Positions and displacements are read and written, so are a velocity and a
+    // force; a mass.
+    const double node = (2 * 2 * dim + 4 * dim + 1) * sizeof(double);
+    // Tractions are written; plastic gaps and areas are read.
+    const double point = (2 * dim + 1) * sizeof(double)
+                         + 2 * sizeof(std::uint32_t) + sizeof(std::uint8_t);
+    // Two edges of eight numbers.
+    const double contact = 2 * sizeof(ContactPair) + 2 * 8 * sizeof(double);
+    return size.n_nodes * node + size.n_cells * sizeof(std::uint32_t)
+           + size.n_joint_points * point + size.n_contacts * contact;
+  }
+
+  std::string smallest_store(const double bytes)
+  {
+    for (const auto &[size, name] :
+         { std::pair(_SC_LEVEL1_DCACHE_SIZE, "L1 cache"),
+           std::pair(_SC_LEVEL2_CACHE_SIZE, "L2 cache"),
+           std::pair(_SC_LEVEL3_CACHE_SIZE, "L3 cache") })
+      if (bytes <= double(sysconf(size)))
+        return name;
+    return "memory";
   }
 } // namespace quoin

@@ -44,6 +44,10 @@ namespace quoin
 
     double sum      = 0.;
     std::uint64_t n = 0, n_large = 0; /**< samples, and those above large */
+    /** Share of the energy throughput that is kinetic above which something
+        falls or flies, rows of histories, and those with more. */
+    static constexpr double moving = 0.05;
+    std::uint64_t n_rows = 0, n_moving = 0;
 
     void add(const double share)
     {
@@ -51,17 +55,28 @@ namespace quoin
       ++n;
       n_large += share > large;
     }
+    void add_row(const double kinetic_share)
+    {
+      ++n_rows;
+      n_moving += kinetic_share > moving;
+    }
     /** Whether it was large for more than half of the stage: not only while it
         settles, or as joints break. */
     bool is_large() const
     {
       return 2 * n_large > n;
     }
+    /** Whether something moved fast for longer than loads that are suddenly
+        applied make it. */
+    bool is_of_motion() const
+    {
+      return n_moving >= 10 && 20 * n_moving > n_rows;
+    }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &sum &n &n_large;
+      archive &sum &n &n_large &n_rows &n_moving;
     }
   };
 

@@ -43,12 +43,24 @@ namespace quoin
    */
   double memory_bandwidth(double bytes);
 
+  /** What a step goes through. */
+  struct StepSize
+  {
+    double n_nodes, n_cells, n_joint_points, n_contacts;
+  };
+
   /**
    * Bytes that one undamped step must move to and from memory if each array
    * is streamed once: node records, velocities, forces, masses, and the node
-   * number that each cell adds to its strip.
+   * number that each cell adds to its strip; of points of joints that stick
+   * tractions, plastic gaps, state, area and nodes; general contacts with their
+   * edges. @p dim: 2 or 3.
    */
-  double step_bytes(double n_nodes, double n_cells);
+  double step_bytes(int dim, const StepSize &size);
+
+  /** "L1 cache", "L2 cache", "L3 cache" or "memory": the smallest of those of
+      this processor that holds @p bytes. */
+  std::string smallest_store(double bytes);
 } // namespace quoin
 
 #endif
