@@ -1400,6 +1400,41 @@ def space_modes_mesh(case, folder, output, histories):
     return {**errors, **energy_residual(case, folder, output, histories)}
 
 
+def space_reflection(case, folder, output, histories):
+    """Complex amplitudes of the P, SV and SH waves that a wall reflects, fitted
+    to the displacements at the wall and inside: the largest difference from the
+    closed form, and that of what they tend to with the square of the size of the
+    elements, from a mesh twice as coarse. And the energy residual."""
+    exact = reference_module(folder)
+    comes, *back = exact.reflection(*case["wave"])
+
+    def amplitudes(table):
+        table = strictly_increasing(table)
+        wanted, waves = [], []
+        for name, place in exact.PLACES.items():
+            moved = np.transpose([table[name + "_" + axis] for axis in "xyz"])
+            wave, *others = (exact.displacements((1.0, *wave[1:]), place,
+                                                 table["time"])
+                             for wave in (comes, *back))
+            wanted.append(moved / exact.SIZE - wave.real)
+            waves.append(np.reshape([(c * wave).real for c in (1, 1j)
+                                     for wave in others], (6, -1)))
+        found = np.linalg.lstsq(np.hstack(waves).T, np.ravel(wanted),
+                                rcond=None)[0]
+        return found[:3] + 1j * found[3:]
+
+    coarse = os.path.join(output, "coarse")
+    run(case["quoin"], os.path.join(folder, case["prm"]), coarse,
+        ["Mesh/File=coarse.geo"])
+    coarse = amplitudes(read_table(os.path.join(coarse, "histories.csv"))[0])
+    fine = amplitudes(histories)
+    wanted = [wave[0] for wave in back]
+    return {"amplitudes": float(np.max(np.abs(fine - wanted))),
+            "extrapolated": float(np.max(np.abs(
+                fine + (fine - coarse) / 3 - wanted))),
+            **energy_residual(case, folder, output, histories)}
+
+
 def polarised_slip(case, folder, output, histories):
     """Slip and velocities across the polarisation of a wave, relative to those
     along it; and the residual of the energy balance."""
