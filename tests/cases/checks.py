@@ -1329,6 +1329,112 @@ def space_cube(case, folder, output, histories):
             **energy_residual(case, folder, output, histories)}
 
 
+def peak_frequency(t, values, about):
+    """Frequency within 12 % of @p about at which the spectrum of a history is
+    largest, in Blackman's window, without the straight line of a rigid motion."""
+    u = np.blackman(len(t)) * (values - np.polyval(np.polyfit(t, values, 1), t))
+
+    def size(frequency):
+        return np.abs(np.exp(-2j * np.pi * np.outer(frequency, t)) @ u)
+
+    wide = about * np.linspace(0.88, 1.12, 241)
+    middle = wide[1 + np.argmax(size(wide)[1:-1])]
+    near = middle + about * np.linspace(-1e-3, 1e-3, 201)
+    return near[np.argmax(size(near))]
+
+
+def space_modes(case, folder, output, histories):
+    """Frequencies of the lowest modes of a parallelepiped, each of the peak in
+    the history of its name, relative to those of Ritz; the largest error of what
+    they tend to with the square of the size of the elements, from the mesh
+    "coarse" with "ratio" times that; by how much the order of the modes that are
+    1 % off there falls short of 2. And the energy residual."""
+    exact = reference_module(folder)
+    wanted, _ = read_table(os.path.join(folder, "frequencies.csv"))
+
+    def errors(table):
+        table = strictly_increasing(table)
+        return np.array([peak_frequency(table["time"], table[name], f) / f - 1
+                         for name, f in zip(exact.HISTORIES,
+                                            wanted["frequency"])])
+
+    coarse = os.path.join(output, "coarse")
+    run(case["quoin"], os.path.join(folder, "case.prm"), coarse,
+        [*case.get("set", []), "Mesh/File=" + case["coarse"]])
+    fine = errors(histories)
+    coarse = errors(read_table(os.path.join(coarse, "histories.csv"))[0])
+    limit = fine + (fine - coarse) / (case["ratio"]**2 - 1)
+    far = np.abs(coarse) > 0.01
+    order = np.log(np.abs(coarse / fine)[far]) / np.log(case["ratio"])
+    return {**dict(zip(exact.HISTORIES, np.abs(fine).tolist())),
+            "extrapolated": float(np.max(np.abs(limit))),
+            "2 - order": max(0.0, float(2 - np.min(order))),
+            **energy_residual(case, folder, output, histories)}
+
+
+def space_modes_mesh(case, folder, output, histories):
+    """Histories of a free block that begins with a velocity, relative to their
+    peaks by the modes of its mesh, in which "together" tetrahedra share their
+    change of volume; and the energy residual."""
+    exact = reference_module(folder)
+    mesh = reference_module(folder, "mesh_modes")
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    with open(os.path.join(output, "summary.json")) as stream:
+        dt = json.load(stream)["time step [s]"]
+    histories = strictly_increasing(histories)
+    found = mesh.displacements(
+        *mesh.matrices(grid.points, grid.cells, exact.E, exact.NU, exact.RHO,
+                       case["together"]),
+        exact.velocity(*grid.points.T),
+        [mesh.weights(grid.points, grid.cells, place)
+         for places in exact.HISTORIES.values() for place in places[1:]],
+        np.rint(histories["time"] / dt), dt)
+    errors, k = {}, 0
+    for name, (axis, *places) in exact.HISTORIES.items():
+        wanted = found[:, k, axis]
+        if len(places) == 2:
+            wanted = found[:, k + 1, axis] - wanted
+        k += len(places)
+        errors[name] = float(np.max(np.abs(histories[name] - wanted))
+                             / np.max(np.abs(wanted)))
+    return {**errors, **energy_residual(case, folder, output, histories)}
+
+
+def space_reflection(case, folder, output, histories):
+    """Complex amplitudes of the P, SV and SH waves that a wall reflects, fitted
+    to the displacements at the wall and inside: the largest difference from the
+    closed form, and that of what they tend to with the square of the size of the
+    elements, from a mesh twice as coarse. And the energy residual."""
+    exact = reference_module(folder)
+    comes, *back = exact.reflection(*case["wave"])
+
+    def amplitudes(table):
+        table = strictly_increasing(table)
+        wanted, waves = [], []
+        for name, place in exact.PLACES.items():
+            moved = np.transpose([table[name + "_" + axis] for axis in "xyz"])
+            wave, *others = (exact.displacements((1.0, *wave[1:]), place,
+                                                 table["time"])
+                             for wave in (comes, *back))
+            wanted.append(moved / exact.SIZE - wave.real)
+            waves.append(np.reshape([(c * wave).real for c in (1, 1j)
+                                     for wave in others], (6, -1)))
+        found = np.linalg.lstsq(np.hstack(waves).T, np.ravel(wanted),
+                                rcond=None)[0]
+        return found[:3] + 1j * found[3:]
+
+    coarse = os.path.join(output, "coarse")
+    run(case["quoin"], os.path.join(folder, case["prm"]), coarse,
+        ["Mesh/File=coarse.geo"])
+    coarse = amplitudes(read_table(os.path.join(coarse, "histories.csv"))[0])
+    fine = amplitudes(histories)
+    wanted = [wave[0] for wave in back]
+    return {"amplitudes": float(np.max(np.abs(fine - wanted))),
+            "extrapolated": float(np.max(np.abs(
+                fine + (fine - coarse) / 3 - wanted))),
+            **energy_residual(case, folder, output, histories)}
+
+
 def polarised_slip(case, folder, output, histories):
     """Slip and velocities across the polarisation of a wave, relative to those
     along it; and the residual of the energy balance."""

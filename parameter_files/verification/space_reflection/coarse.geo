@@ -1,0 +1,3 @@
+// The box with edges twice as long.
+h = 0.4;
+Include "box.geo";
