@@ -276,22 +276,29 @@ def initial_energy(case, folder, output, histories):
 
 
 def miller(case, folder, output, histories):
-    """Coefficients from the energy fluxes over the last full period."""
-    name = os.path.join(folder, "coefficients.csv")
+    """Coefficients from the energy fluxes over the last full period, from the
+    time "from"; of a wave polarised along "way" by its components."""
+    name = os.path.join(folder, case.get("coefficients", "coefficients.csv"))
     table = np.loadtxt(name, delimiter=",", skiprows=1)
     exact = table[np.argmin(np.abs(table[:, 0] - case["cohesion"]))]
     histories = strictly_increasing(histories)
+    frequency = case.get("frequency", 1.0)
     speed = (10e9 / 2650.0) ** 0.5
     amplitude = 1e6 / (2650.0 * 10e9) ** 0.5
-    t = 2.1 + np.linspace(0, 1, 4001)[:-1]
+    t = case.get("from", 2.1) + np.linspace(0, 1 / frequency, 4001)[:-1]
 
-    def velocity(column):
-        return np.interp(t, histories["time"], histories[column])
+    def velocity(place):
+        if "way" not in case:
+            return np.interp(t, histories["time"], histories["v_" + place])
+        return sum(part * np.interp(t, histories["time"],
+                                    histories["%s_%s" % (axis, place)])
+                   for axis, part in zip("xyz", case["way"]))
 
     flux = amplitude**2 / 2
-    passed = np.mean(velocity("v_above") ** 2) / flux
-    arriving = amplitude * np.sin(2 * np.pi * (t - 50 / speed))
-    reflected = np.mean((velocity("v_below") - arriving) ** 2) / flux
+    passed = np.mean(velocity("above") ** 2) / flux
+    arriving = amplitude * np.sin(2 * np.pi * frequency * (
+        t - case.get("distance", 50) / speed))
+    reflected = np.mean((velocity("below") - arriving) ** 2) / flux
     absorbed = max(1 - passed - reflected, 0.0)
     values = np.sqrt([passed, reflected, absorbed])
     result = {label: float(abs(value - wanted))
