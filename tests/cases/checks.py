@@ -1396,6 +1396,19 @@ def hollow_volume(grid, wall):
     return np.sum(np.abs(np.einsum("ij,ij->i", np.cross(a, b), c))) / 6
 
 
+def radial_and_hoop_stress(grid):
+    """Distances of the centres of tetrahedra from the origin, and the stresses
+    along the radius and, the mean of all directions, across it."""
+    centre = grid.points[grid.cells].mean(axis=1)
+    r = np.linalg.norm(centre, axis=1)
+    n = centre / r[:, None]
+    s = grid.cell_data["stress"]
+    along = (s[:, 0] * n[:, 0]**2 + s[:, 1] * n[:, 1]**2 + s[:, 2] * n[:, 2]**2
+             + 2 * (s[:, 3] * n[:, 0] * n[:, 1] + s[:, 4] * n[:, 0] * n[:, 2]
+                    + s[:, 5] * n[:, 1] * n[:, 2]))
+    return r, np.array([along, 0.5 * (np.sum(s[:, :3], axis=1) - along)])
+
+
 def space_sphere_yielding(case, folder, output, histories):
     """Mean displacement of the wall and the radius of the plastic zone, by the
     volume that has yielded; displacements of all nodes, and stresses of cells
@@ -1410,17 +1423,9 @@ def space_sphere_yielding(case, folder, output, histories):
     volume = volumes(grid)
     yielded = np.sum(volume[grid.cell_data["yielding"] > 0])
     radius = (24 / (4 * np.pi) * (yielded + hollow_volume(grid, wall)))**(1 / 3)
-    centre = x[grid.cells].mean(axis=1)
-    rc = np.linalg.norm(centre, axis=1)
-    n = centre / rc[:, None]
-    s = grid.cell_data["stress"]
-    along = (s[:, 0] * n[:, 0]**2 + s[:, 1] * n[:, 1]**2 + s[:, 2] * n[:, 2]**2
-             + 2 * (s[:, 3] * n[:, 0] * n[:, 1] + s[:, 4] * n[:, 0] * n[:, 2]
-                    + s[:, 5] * n[:, 1] * n[:, 2]))
-    around = 0.5 * (np.sum(s[:, :3], axis=1) - along)
-    error = np.sqrt(np.average(
-        (np.array([along, around]) - exact.stresses(rc))**2, axis=1,
-        weights=volume * (rc < 2.5)))
+    rc, found = radial_and_hoop_stress(grid)
+    error = np.sqrt(np.average((found - exact.stresses(rc))**2, axis=1,
+                               weights=volume * (rc < 2.5)))
     print("  wall %.4f mm, formula %.4f; plastic radius %.3f m, formula %.3f"
           % (1e3 * np.mean(radial[wall]), 1e3 * np.mean(wanted[wall]), radius,
              exact.radius))
@@ -1436,10 +1441,14 @@ def space_sphere_yielding(case, folder, output, histories):
 
 def space_sphere_step(case, folder, output, histories):
     """Displacements of all nodes up to 2 m at the times of the fields, relative
-    to the largest of the wall; and the residual of the energy balance."""
+    to the largest of the wall; the radial stress and the hoop stress at the
+    wall, relative to the pressure; and the residual of the energy balance. What
+    stresses of cells differ by is extrapolated to the wall by a straight line
+    over r."""
     exact = reference_module(folder)
     path = os.path.join(output, "blocks.pvd")
     largest, scale = 0.0, np.max(np.abs(histories["wall_x"]))
+    stress = np.zeros(2)
     for time, _ in vtu.read_pvd(path):
         grid = vtu.read_at(path, time)
         x, u = grid.points, grid.point_data["displacement"]
@@ -1448,7 +1457,17 @@ def space_sphere_step(case, folder, output, histories):
         wanted = (exact.displacement(r, time) / r)[:, None] * x
         largest = max(largest, np.max(np.linalg.norm((u - wanted)[near],
                                                      axis=1)))
+        if time == 0:
+            continue
+        r, found = radial_and_hoop_stress(grid)
+        weight = np.sqrt(volumes(grid)) * (r < 1.3)
+        line = np.linalg.lstsq(
+            weight[:, None] * np.column_stack([np.ones_like(r), r - 1]),
+            weight[:, None] * (found - exact.stresses(r, time)).T, rcond=None)
+        stress = np.maximum(stress, np.abs(line[0][0]) / exact.PRESSURE)
     return {"all nodes up to 2 m": float(largest / scale),
+            "radial stress at the wall": float(stress[0]),
+            "hoop stress at the wall": float(stress[1]),
             "energy residual": residual_of(energies(output))}
 
 
