@@ -1511,6 +1511,18 @@ def space_tunnel(case, folder, output, histories):
     return errors
 
 
+def same_by_other_stages(case, folder, output, histories):
+    """How far the last row of the columns of "scale" is from that of a run with
+    the settings "other", relative to the scale."""
+    other = os.path.join(output, "other")
+    run(case["quoin"], os.path.join(folder, case["prm"]), other,
+        case.get("set", []) + case["other"])
+    table, _ = read_table(os.path.join(other, "histories.csv"))
+    return {"by other stages": float(max(
+        abs(histories[name][-1] - table[name][-1]) / scale
+        for name, scale in case["scale"].items()))}
+
+
 def space_rest(case, folder, output, histories):
     """Stresses of all cells and tractions of the joints under the initial
     stress and gravity, relative to the largest stress, and the motion relative
