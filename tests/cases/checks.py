@@ -70,6 +70,36 @@ def radiated_energy(case, folder, output, histories):
             "energy residual": residual_of(table)}
 
 
+def scattered_waves(case, folder, output, histories):
+    """How far velocities "near" a scatterer are from those of a model whose sides
+    are farther away, by the settings "wide", relative to what the scatterer
+    adds there to the motion "without" it: the largest values, and the root
+    mean squares over all of these histories and the run."""
+    wide = os.path.join(output, "wide")
+    run(case["quoin"], os.path.join(folder, case["prm"]), wide,
+        case.get("set", []) + case["wide"])
+    far, _ = read_table(os.path.join(wide, "histories.csv"))
+    flat, _ = read_table(os.path.join(folder, case["without"]))
+    t = far["time"][far["time"] <= flat["time"][-1]]
+    back, added = [], []
+    for name in case["near"]:
+        for axis in "xyz":
+            column = "%s_%s" % (name, axis)
+            wanted = np.interp(t, far["time"], far[column])
+            back.append(np.interp(t, histories["time"], histories[column])
+                        - wanted)
+            added.append(wanted - np.interp(t, flat["time"],
+                                            flat["middle_" + axis]))
+    print("  the scatterer adds up to %.3g m/s, %.3g of the motion without it"
+          % (np.max(np.abs(added)), np.max(np.abs(added)) / max(
+              np.max(np.abs(flat["middle_" + axis])) for axis in "xyz")))
+    return {"sent back, largest": float(np.max(np.abs(back))
+                                        / np.max(np.abs(added))),
+            "sent back, rms": float(np.linalg.norm(back)
+                                    / np.linalg.norm(added)),
+            **energy_residual(case, folder, output, histories)}
+
+
 def cable_bond(case, folder, output, histories):
     """Of a bar half way out of its grout, in cables.pvd: how far the bond has
     slipped there, by the reference, as a share of its length. And the residual
