@@ -70,6 +70,36 @@ def radiated_energy(case, folder, output, histories):
             "energy residual": residual_of(table)}
 
 
+def scattered_waves(case, folder, output, histories):
+    """How far velocities "near" a scatterer are from those of a model whose sides
+    are farther away, by the settings "wide", relative to what the scatterer
+    adds there to the motion "without" it: the largest values, and the root
+    mean squares over all of these histories and the run."""
+    wide = os.path.join(output, "wide")
+    run(case["quoin"], os.path.join(folder, case["prm"]), wide,
+        case.get("set", []) + case["wide"])
+    far, _ = read_table(os.path.join(wide, "histories.csv"))
+    flat, _ = read_table(os.path.join(folder, case["without"]))
+    t = far["time"][far["time"] <= flat["time"][-1]]
+    back, added = [], []
+    for name in case["near"]:
+        for axis in "xyz":
+            column = "%s_%s" % (name, axis)
+            wanted = np.interp(t, far["time"], far[column])
+            back.append(np.interp(t, histories["time"], histories[column])
+                        - wanted)
+            added.append(wanted - np.interp(t, flat["time"],
+                                            flat["middle_" + axis]))
+    print("  the scatterer adds up to %.3g m/s, %.3g of the motion without it"
+          % (np.max(np.abs(added)), np.max(np.abs(added)) / max(
+              np.max(np.abs(flat["middle_" + axis])) for axis in "xyz")))
+    return {"sent back, largest": float(np.max(np.abs(back))
+                                        / np.max(np.abs(added))),
+            "sent back, rms": float(np.linalg.norm(back)
+                                    / np.linalg.norm(added)),
+            **energy_residual(case, folder, output, histories)}
+
+
 def cable_bond(case, folder, output, histories):
     """Of a bar half way out of its grout, in cables.pvd: how far the bond has
     slipped there, by the reference, as a share of its length. And the residual
@@ -276,22 +306,29 @@ def initial_energy(case, folder, output, histories):
 
 
 def miller(case, folder, output, histories):
-    """Coefficients from the energy fluxes over the last full period."""
-    name = os.path.join(folder, "coefficients.csv")
+    """Coefficients from the energy fluxes over the last full period, from the
+    time "from"; of a wave polarised along "way" by its components."""
+    name = os.path.join(folder, case.get("coefficients", "coefficients.csv"))
     table = np.loadtxt(name, delimiter=",", skiprows=1)
     exact = table[np.argmin(np.abs(table[:, 0] - case["cohesion"]))]
     histories = strictly_increasing(histories)
+    frequency = case.get("frequency", 1.0)
     speed = (10e9 / 2650.0) ** 0.5
     amplitude = 1e6 / (2650.0 * 10e9) ** 0.5
-    t = 2.1 + np.linspace(0, 1, 4001)[:-1]
+    t = case.get("from", 2.1) + np.linspace(0, 1 / frequency, 4001)[:-1]
 
-    def velocity(column):
-        return np.interp(t, histories["time"], histories[column])
+    def velocity(place):
+        if "way" not in case:
+            return np.interp(t, histories["time"], histories["v_" + place])
+        return sum(part * np.interp(t, histories["time"],
+                                    histories["%s_%s" % (axis, place)])
+                   for axis, part in zip("xyz", case["way"]))
 
     flux = amplitude**2 / 2
-    passed = np.mean(velocity("v_above") ** 2) / flux
-    arriving = amplitude * np.sin(2 * np.pi * (t - 50 / speed))
-    reflected = np.mean((velocity("v_below") - arriving) ** 2) / flux
+    passed = np.mean(velocity("above") ** 2) / flux
+    arriving = amplitude * np.sin(2 * np.pi * frequency * (
+        t - case.get("distance", 50) / speed))
+    reflected = np.mean((velocity("below") - arriving) ** 2) / flux
     absorbed = max(1 - passed - reflected, 0.0)
     values = np.sqrt([passed, reflected, absorbed])
     result = {label: float(abs(value - wanted))
@@ -1495,6 +1532,19 @@ def hollow_volume(grid, wall):
     return np.sum(np.abs(np.einsum("ij,ij->i", np.cross(a, b), c))) / 6
 
 
+def radial_and_hoop_stress(grid):
+    """Distances of the centres of tetrahedra from the origin, and the stresses
+    along the radius and, the mean of all directions, across it."""
+    centre = grid.points[grid.cells].mean(axis=1)
+    r = np.linalg.norm(centre, axis=1)
+    n = centre / r[:, None]
+    s = grid.cell_data["stress"]
+    along = (s[:, 0] * n[:, 0]**2 + s[:, 1] * n[:, 1]**2 + s[:, 2] * n[:, 2]**2
+             + 2 * (s[:, 3] * n[:, 0] * n[:, 1] + s[:, 4] * n[:, 0] * n[:, 2]
+                    + s[:, 5] * n[:, 1] * n[:, 2]))
+    return r, np.array([along, 0.5 * (np.sum(s[:, :3], axis=1) - along)])
+
+
 def space_sphere_yielding(case, folder, output, histories):
     """Mean displacement of the wall and the radius of the plastic zone, by the
     volume that has yielded; displacements of all nodes, and stresses of cells
@@ -1509,17 +1559,9 @@ def space_sphere_yielding(case, folder, output, histories):
     volume = volumes(grid)
     yielded = np.sum(volume[grid.cell_data["yielding"] > 0])
     radius = (24 / (4 * np.pi) * (yielded + hollow_volume(grid, wall)))**(1 / 3)
-    centre = x[grid.cells].mean(axis=1)
-    rc = np.linalg.norm(centre, axis=1)
-    n = centre / rc[:, None]
-    s = grid.cell_data["stress"]
-    along = (s[:, 0] * n[:, 0]**2 + s[:, 1] * n[:, 1]**2 + s[:, 2] * n[:, 2]**2
-             + 2 * (s[:, 3] * n[:, 0] * n[:, 1] + s[:, 4] * n[:, 0] * n[:, 2]
-                    + s[:, 5] * n[:, 1] * n[:, 2]))
-    around = 0.5 * (np.sum(s[:, :3], axis=1) - along)
-    error = np.sqrt(np.average(
-        (np.array([along, around]) - exact.stresses(rc))**2, axis=1,
-        weights=volume * (rc < 2.5)))
+    rc, found = radial_and_hoop_stress(grid)
+    error = np.sqrt(np.average((found - exact.stresses(rc))**2, axis=1,
+                               weights=volume * (rc < 2.5)))
     print("  wall %.4f mm, formula %.4f; plastic radius %.3f m, formula %.3f"
           % (1e3 * np.mean(radial[wall]), 1e3 * np.mean(wanted[wall]), radius,
              exact.radius))
@@ -1535,10 +1577,14 @@ def space_sphere_yielding(case, folder, output, histories):
 
 def space_sphere_step(case, folder, output, histories):
     """Displacements of all nodes up to 2 m at the times of the fields, relative
-    to the largest of the wall; and the residual of the energy balance."""
+    to the largest of the wall; the radial stress and the hoop stress at the
+    wall, relative to the pressure; and the residual of the energy balance. What
+    stresses of cells differ by is extrapolated to the wall by a straight line
+    over r."""
     exact = reference_module(folder)
     path = os.path.join(output, "blocks.pvd")
     largest, scale = 0.0, np.max(np.abs(histories["wall_x"]))
+    stress = np.zeros(2)
     for time, _ in vtu.read_pvd(path):
         grid = vtu.read_at(path, time)
         x, u = grid.points, grid.point_data["displacement"]
@@ -1547,7 +1593,17 @@ def space_sphere_step(case, folder, output, histories):
         wanted = (exact.displacement(r, time) / r)[:, None] * x
         largest = max(largest, np.max(np.linalg.norm((u - wanted)[near],
                                                      axis=1)))
+        if time == 0:
+            continue
+        r, found = radial_and_hoop_stress(grid)
+        weight = np.sqrt(volumes(grid)) * (r < 1.3)
+        line = np.linalg.lstsq(
+            weight[:, None] * np.column_stack([np.ones_like(r), r - 1]),
+            weight[:, None] * (found - exact.stresses(r, time)).T, rcond=None)
+        stress = np.maximum(stress, np.abs(line[0][0]) / exact.PRESSURE)
     return {"all nodes up to 2 m": float(largest / scale),
+            "radial stress at the wall": float(stress[0]),
+            "hoop stress at the wall": float(stress[1]),
             "energy residual": residual_of(energies(output))}
 
 
@@ -1589,6 +1645,18 @@ def space_tunnel(case, folder, output, histories):
                                         < 1 - 1e-6))}
     errors["energy residual"] = residual_of(energies(output))
     return errors
+
+
+def same_by_other_stages(case, folder, output, histories):
+    """How far the last row of the columns of "scale" is from that of a run with
+    the settings "other", relative to the scale."""
+    other = os.path.join(output, "other")
+    run(case["quoin"], os.path.join(folder, case["prm"]), other,
+        case.get("set", []) + case["other"])
+    table, _ = read_table(os.path.join(other, "histories.csv"))
+    return {"by other stages": float(max(
+        abs(histories[name][-1] - table[name][-1]) / scale
+        for name, scale in case["scale"].items()))}
 
 
 def space_rest(case, folder, output, histories):

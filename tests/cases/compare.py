@@ -4,7 +4,8 @@
 """Runs a case of cases.json and compares its histories with the reference.
 
 Every column of the reference but the time is compared with the column of the
-same name of histories.csv, interpolated at the reference's times. The error is
+same name of histories.csv, interpolated at the reference's times, or at its
+values of the history "against", such as the load time. The error is
 the largest difference relative to the column's peak (its "scale" if given). A
 case may add a check of checks.py or wall_checks.py, which returns further
 errors. Each is bounded by its entry in "tolerances", or by "tolerance". The
@@ -32,6 +33,8 @@ def load_cases():
 
 def compare_columns(case, histories, units, reference, reference_units):
     """{column: (max error, rms error)}, relative to the column's scale."""
+    if "against" in case:
+        histories = dict(histories, time=histories[case["against"]])
     histories = common.strictly_increasing(histories)
     t = reference["time"]
     keep = np.ones(len(t), dtype=bool)

@@ -1,6 +1,6 @@
 // A box of rock 24 m wide on a plane across the direction d, 6 m along it, cut by
-// n joints across d; tetrahedra of 0.5 m.
-DefineConstant[ dx = 0.48, dy = 0.6, dz = 0.64, n = 1 ];
+// n joints across d; tetrahedra of 0.5 m, or as wide as g across d.
+DefineConstant[ dx = 0.48, dy = 0.6, dz = 0.64, n = 1, g = 0.5 ];
 h  = 0.5;
 w  = 12;
 r  = Sqrt(dx * dx + dy * dy);
@@ -18,7 +18,7 @@ EndFor
 For i In {1 : 4}
   Line(i) = {i, i % 4 + 1};
 EndFor
-Transfinite Curve{1 : 4} = 2 * w / h + 1;
+Transfinite Curve{1 : 4} = 2 * w / g + 1;
 Curve Loop(1) = {1 : 4};
 Plane Surface(1) = {1};
 Transfinite Surface{1} Alternate;

@@ -66,10 +66,11 @@ def polarisations(d):
 
 
 def main():
-    one, three = np.array([.48, .6, .64]), np.array([-.36, .48, .8])
-    middle = [3.0]
-    for name, d, joints in (("one", one, middle), ("three", three,
-                                                   [2.5, 3.0, 3.5])):
+    first, second = np.array([.48, .6, .64]), np.array([-.36, .48, .8])
+    one, three = [3.0], [2.5, 3.0, 3.5]
+    for name, d, joints in (("one", first, one), ("three", second, three),
+                            ("one_second", second, one),
+                            ("three_first", first, three)):
         p, sv, sh = polarisations(d)
         for wave, modulus, k, duration, end, way in (
                 ("p", LAME + 2 * SHEAR, KN, 2.4e-3, 3.65e-3, p),
