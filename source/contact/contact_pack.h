@@ -8,6 +8,7 @@
 #include <quoin/contact_geometry/pair_lanes.h>
 #include <quoin/joint_laws/composite_lanes.h>
 #include <quoin/joint_laws/coulomb_lanes.h>
+#include <quoin/joint_laws/slip_weakening_lanes.h>
 
 #include <cstddef>
 #include <cstring>
