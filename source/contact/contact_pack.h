@@ -8,6 +8,7 @@
 #include <quoin/contact_geometry/pair_lanes.h>
 #include <quoin/joint_laws/barton_bandis_lanes.h>
 #include <quoin/joint_laws/composite_lanes.h>
+#include <quoin/joint_laws/continuously_yielding_lanes.h>
 #include <quoin/joint_laws/coulomb_lanes.h>
 #include <quoin/joint_laws/slip_weakening_lanes.h>
 
