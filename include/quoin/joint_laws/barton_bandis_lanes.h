@@ -9,6 +9,10 @@
 
 namespace quoin
 {
+  /**
+   * All of the law is in lanes: what sticks by its basic friction, and the flow
+   * of the rest with its dilation.
+   */
   template <int lanes, int dim>
   class LawLanes<BartonBandisLaw, lanes, dim>
   {
@@ -47,18 +51,14 @@ namespace quoin
       const Value worn  = worn_share(points, size);
       const Bits closed = closure >= 0.;
 
-      // Without roughness it bears less, and with an angle in place of its
-      // tangent; most points that stick do not need more.
+      // Those that stick without roughness, and with an angle in place of its
+      // tangent, stick all the more with them. Most points that stick do; the
+      // others are found to stick by flows of their own, which takes the
+      // logarithm and the tangent.
       const Value basic = basic_share(worn);
       const Value least
           = basic < 1. ? law.residual_angle * basic : none + basic_friction;
       points.elastic = closed & (law.divisor * size <= pressure * least);
-      if (F::any(closed & ~points.elastic))
-      {
-        Value most;
-        find_strength(pressure, worn, most);
-        points.elastic |= closed & (size <= most);
-      }
       // A stage may put this law in place of one that remembers friction,
       // which the first step forgets.
       points.elastic
@@ -190,17 +190,6 @@ namespace quoin
       result.dilation = Dual::choose(half > result.friction.value,
                                      result.friction, result.dilation);
       return result;
-    }
-
-    /** The shear strength [Pa]. It is not inlined where points stick, which do
-        not need it in general. */
-    void find_strength(const Value &pressure, const Value &worn,
-                       Value &result) const
-    {
-      const Dual constant{ pressure, Value{} };
-      result = pressure
-               * friction(constant, basic_share(worn), mobilised(worn))
-                     .friction.value;
     }
 
     /** What BartonBandisLaw::flow() of points needs, and that at a closure. */
