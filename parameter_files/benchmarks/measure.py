@@ -22,6 +22,25 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 WALLS = "../masonry/tue_walls/"
 
+# Overrides of joints/case.prm: a wall without tensile strength and cohesion,
+# which initial stress keeps closed; its upper platen slides; laws.
+CLOSED = ["Loads/Names=floor, press, squeeze",
+          "Loads/squeeze/Type=initial stress",
+          "Loads/squeeze/Stress=-2e6, -2e6, 0",
+          "Joints/mortar/Tensile strength=0", "Joints/mortar/Cohesion=0"]
+SLIDES = ["Loads/press/Horizontal=velocity 2 * min(1, t / 0.0005)"]
+WEAKENING = CLOSED + ["Joints/mortar/Law=slip weakening",
+                      "Joints/mortar/Weakening slip=1e-3",
+                      "Joints/mortar/Residual friction angle=3"]
+BARTON_BANDIS = CLOSED + ["Joints/mortar/Law=Barton-Bandis",
+                          "Joints/mortar/Largest closure=0.2e-3",
+                          "Joints/mortar/Largest normal stiffness=200e9",
+                          "Joints/mortar/Joint wall strength=20e6"]
+YIELDING = CLOSED + ["Joints/mortar/Law=continuously yielding",
+                     "Joints/mortar/Normal exponent=0.5",
+                     "Joints/mortar/Shear exponent=0.4",
+                     "Joints/mortar/Highest stress=1e7"]
+
 # (name, parameter file, overrides); "space" is in the names of those in three
 # dimensions that have joints.
 BENCHMARKS = [
@@ -36,6 +55,25 @@ BENCHMARKS = [
      ["Joints/mortar/Law=Coulomb", "Joints/mortar/Cohesion=0",
       "Joints/mortar/Tensile strength=0", "Joints/mortar/Friction angle=5",
       "Loads/press/Horizontal=velocity 2 * min(1, t / 0.0005)"]),
+    ("joints, slip weakening, sticking", "joints/case.prm", WEAKENING),
+    ("joints, slip weakening, slipping", "joints/case.prm",
+     WEAKENING + SLIDES + ["Joints/mortar/Friction angle=5"]),
+    ("joints, Barton-Bandis, sticking", "joints/case.prm",
+     BARTON_BANDIS + ["Joints/mortar/Residual friction angle=28",
+                      "Joints/mortar/Joint roughness=10",
+                      "Joints/mortar/Peak slip=1e-3"]),
+    ("joints, Barton-Bandis, slipping", "joints/case.prm",
+     BARTON_BANDIS + SLIDES + ["Joints/mortar/Residual friction angle=5",
+                               "Joints/mortar/Joint roughness=5",
+                               "Joints/mortar/Peak slip=2e-5"]),
+    ("joints, continuously yielding, pressed", "joints/case.prm",
+     YIELDING + ["Joints/mortar/Friction angle=50",
+                 "Joints/mortar/Residual friction angle=30",
+                 "Joints/mortar/Roughness=1e-3"]),
+    ("joints, continuously yielding, slipping", "joints/case.prm",
+     YIELDING + SLIDES + ["Joints/mortar/Friction angle=10",
+                          "Joints/mortar/Residual friction angle=5",
+                          "Joints/mortar/Roughness=1e-4"]),
     ("tetrahedra", "tetrahedra/case.prm", ["Stages/shake/Duration=5e-3"]),
     ("tetrahedra, 640 000", "tetrahedra/case.prm",
      ["Mesh/File=cube_fine.geo", "Stages/shake/Duration=1e-3"]),

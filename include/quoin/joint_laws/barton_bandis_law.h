@@ -54,6 +54,9 @@ namespace quoin
     }
 
   private:
+    template <typename Law, int lanes, int dim>
+    friend class LawLanes;
+
     double first, limit, largest; /**< kni [Pa/m], Vm [m], [Pa/m] */
     /** Closure and traction where the linear part begins [m], [Pa]. */
     double end_closure, end_traction;

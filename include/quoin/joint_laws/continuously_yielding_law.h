@@ -83,6 +83,9 @@ namespace quoin
     }
 
   private:
+    template <typename Law, int lanes, int dim>
+    friend class LawLanes;
+
     PowerStiffness law;
     double low_stiffness, high_stiffness; /**< [Pa/m] */
     double low_closure, high_closure;     /**< range of the power law [m] */

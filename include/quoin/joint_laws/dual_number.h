@@ -68,6 +68,12 @@ namespace quoin
         result.by[i] = (a.by[i] - result.value * b.by[i]) / b.value;
       return result;
     }
+    /** Also of infinite numbers, such as the slip of new contacts, which the
+        quotient of two would give no derivative. */
+    friend DualNumber operator/(const DualNumber &a, const double b)
+    {
+      return chain(a.value / b, 1. / b, a);
+    }
     friend DualNumber &operator+=(DualNumber &a, const DualNumber &b)
     {
       return a = a + b;

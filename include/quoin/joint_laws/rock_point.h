@@ -92,9 +92,12 @@ namespace quoin
       if (first < 0. && rest.by[0] < least_slope)
         return uncoupled;
       (rest.value > 0. ? high : low) = step.closure;
-      if (std::abs(rest.value) <= precision)
-        break;
       const double next = step.closure - rest.value / rest.by[0];
+      if (std::abs(rest.value) <= precision)
+      {
+        step.closure = next; // to rounding, in one more step
+        break;
+      }
       if (next > low && next < high)
         step.closure = next;
       else if (std::isfinite(high))

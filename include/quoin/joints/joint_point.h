@@ -147,6 +147,10 @@ namespace quoin
     const char *word, *sentence;
   };
 
+  /** See joint_lanes.h. */
+  template <typename Law, int lanes, int dim>
+  class LawLanes;
+
   /** Common defaults of joint laws, which a law hides where it differs. See
       joint_law.h. */
   struct JointLawDefaults

@@ -230,6 +230,18 @@ namespace
     return law;
   }
 
+  SlipWeakeningLaw weakening()
+  {
+    SlipWeakeningLaw law;
+    law.normal_stiffness  = kn;
+    law.shear_stiffness   = ks;
+    law.cohesion          = 1e4;
+    law.friction          = 0.5;
+    law.residual_friction = 0.3;
+    law.weakening_slip    = 1e-3;
+    return law;
+  }
+
   /** Two rows of squares beside and on each other, cut differently. */
   BlockMesh<2> rows()
   {
@@ -279,7 +291,8 @@ namespace
   {
     for (const JointLaw &law :
          { JointLaw(touching().law), JointLaw(dilating()), JointLaw(mortar()),
-           JointLaw(rock_test::rough()), JointLaw(rock_test::yielding()) })
+           JointLaw(weakening()), JointLaw(rock_test::rough()),
+           JointLaw(rock_test::yielding()) })
     {
       expect_same(compare(rows(), with_law(law, "unnamed"), lanes, 2e-3, 2e-3),
                   kind_of_law(law));
