@@ -26,6 +26,15 @@ namespace quoin
     return row.back();
   }
 
+  namespace
+  {
+    /** Whether @p name goes on from @p wanted, a word at least. */
+    bool begins_with(const std::string &name, const std::string &wanted)
+    {
+      return wanted.size() >= 4 && name.rfind(wanted, 0) == 0;
+    }
+  } // namespace
+
   std::string nearest_name(const std::string &wanted,
                            const std::vector<std::string> &names)
   {
@@ -33,7 +42,9 @@ namespace quoin
     // Two letters may have changed places.
     const std::size_t most
         = wanted.size() < 4 ? 1 : std::max<std::size_t>(2, wanted.size() / 3);
-    return sorted.empty() || edit_distance(wanted, sorted.front()) > most
+    return sorted.empty()
+                   || (!begins_with(sorted.front(), wanted)
+                       && edit_distance(wanted, sorted.front()) > most)
                ? ""
                : sorted.front();
   }
@@ -62,10 +73,12 @@ namespace quoin
   std::vector<std::string> nearest_first(const std::string &wanted,
                                          std::vector<std::string> names)
   {
-    std::stable_sort(
-        names.begin(), names.end(),
-        [&](const std::string &a, const std::string &b)
-        { return edit_distance(wanted, a) < edit_distance(wanted, b); });
+    const auto distance = [&](const std::string &name) {
+      return std::pair(!begins_with(name, wanted), edit_distance(wanted, name));
+    };
+    std::stable_sort(names.begin(), names.end(),
+                     [&](const std::string &a, const std::string &b)
+                     { return distance(a) < distance(b); });
     return names;
   }
 } // namespace quoin

@@ -235,7 +235,7 @@ namespace quoin
                                + ".",
                            nearest_name(value, words));
         return { given + "is none of the " + std::to_string(words.size())
-                     + " known values, which 'quoin --print-parameters' lists.",
+                     + " known values, which 'quoin --print-schema' lists.",
                  "Near ones are: " + known_names(near_names(value, words))
                      + ". " };
       }

@@ -557,10 +557,19 @@ namespace quoin
          << (is_plane ? " triangles, "
              : mixed  ? " parts of mixed tetrahedra, "
                       : " tetrahedra, ")
-         << n_nodes << " nodes; x " << box[0][0] << " to " << box[1][0]
-         << " m, y " << box[0][1] << " to " << box[1][1] << " m";
+         << n_nodes << " nodes; ";
+    // Far from the origin six digits would not tell a model's ends apart.
+    const double far  = std::max({ 1., box[0].norm(), box[1].norm() });
+    const double size = box[0].distance(box[1]);
+    const std::streamsize digits = text.precision();
+    if (size > 0.)
+      text.precision(digits
+                     + std::streamsize(std::max(0., std::log10(far / size))));
+    text << "x " << box[0][0] << " to " << box[1][0] << " m, y " << box[0][1]
+         << " to " << box[1][1] << " m";
     if (!is_plane)
       text << ", z " << box[0][2] << " to " << box[1][2] << " m";
+    text.precision(digits);
     text << "\nedges " << shortest_edge << " to " << longest_edge
          << " m, smallest angle " << smallest_angle << " degrees"
          << (is_plane ? "\n" : " between faces\n") << n_joint_faces

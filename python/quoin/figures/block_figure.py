@@ -198,6 +198,8 @@ class Picture:
             self.low, self.high = np.reshape(options.view, (2, 2))
         else:
             places = [f.position(self.scale) for f in frames]
+            places += [drawn_position(f.beams, self.scale, f.shared)[:, :2]
+                       for f in frames if f.beams and len(f.beams.cells)]
             self.low = np.min([p.min(axis=0) for p in places], axis=0)
             self.high = np.max([p.max(axis=0) for p in places], axis=0)
         self.extent = self.high - self.low
