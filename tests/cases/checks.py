@@ -1534,6 +1534,38 @@ def in_situ_rest(case, folder, output, histories):
         "joint traction": float(np.max(nearest) / largest)}
 
 
+def wedge_forces(case, folder, output, histories):
+    """Normal forces on both planes of a wedge, relative to the closed form, and
+    the shear forces relative to the weight: with the angle "sliding" friction along
+    the line of intersection in each row after the load has risen, without it in the
+    last row, at rest, both with the normal forces the weight."""
+    exact = reference_module(folder)
+    wanted = exact.on_both(np.array([0, 0, -exact.weight]))[1:]
+    rows = (histories["time"] > 0.15 if "sliding" in case
+            else slice(-1, None))
+    forces = [np.stack([histories[plane + axis][rows] for axis in "xyz"], 1)
+              for plane in "ab"]
+    errors, shears = {}, []
+    for plane, force, n, on in zip("ab", forces, (exact.a, exact.b), wanted):
+        across = force @ n
+        errors["normal force on " + plane] = float(
+            np.max(np.abs(across / on - 1)))
+        shears.append(force - across[:, None] * n)
+        print("  on %s %.5f to %.5f of the weight, formula %.5f" % (
+            plane, np.min(across) / exact.weight,
+            np.max(across) / exact.weight, on / exact.weight))
+    if "sliding" in case:
+        mu = np.tan(np.radians(case["sliding"]))
+        wrong = [shear + mu * on * exact.line
+                 for shear, on in zip(shears, wanted)]
+        errors["shear forces"] = float(
+            np.max(np.linalg.norm(wrong, axis=2)) / exact.weight)
+    else:
+        wrong = sum(forces) - exact.weight * np.array([0, 0, 1.0])
+        errors["weight"] = float(np.max(np.abs(wrong)) / exact.weight)
+    return {**errors, **energy_residual(case, folder, output, histories)}
+
+
 def factor_of_safety(case, folder, output, histories):
     """The middle of the bracket, no wider than 0.01, against a column of a
     table; where factors are "undecided", the stable one, and that the column is
