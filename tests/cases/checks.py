@@ -1471,7 +1471,10 @@ def space_fill(case, folder, output, histories):
 
 
 def space_tunnel(case, folder, output, histories):
-    """Displacements of the wall of a tunnel, relative to the largest."""
+    """Displacements of the wall of a tunnel, relative to the largest; the hoop
+    stress from the strain of the wall's edges at an end, whose radial stress is
+    gone, all along the wall, at its side and at its crown; and the stresses of
+    the cells up to 1.5 m by root mean square; all relative to the largest."""
     exact = reference_module(folder)
     grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
     x, u = grid.points, grid.point_data["displacement"]
@@ -1481,6 +1484,40 @@ def space_tunnel(case, folder, output, histories):
                             / np.max(np.abs(wanted))),
               "core left": float(np.sum(np.hypot(x[:, 0], x[:, 2])
                                         < 1 - 1e-6))}
+
+    rim = np.flatnonzero(wall & (x[:, 1] < 1e-6))
+    rim = rim[np.argsort(np.arctan2(x[rim, 2], x[rim, 0]))]
+    edge = np.diff(x[rim], axis=0)
+    stretch = np.sum(np.diff(u[rim], axis=0) * edge, axis=1) / np.sum(
+        edge**2, axis=1)
+    middle = 0.5 * (x[rim[1:]] + x[rim[:-1]])
+    angle = np.arctan2(middle[:, 2], middle[:, 0])
+    mean, half = (exact.SXX + exact.SZZ) / 2, (exact.SXX - exact.SZZ) / 2
+    before = mean + half * np.cos(2 * angle)    # radial
+    hoop = (2 * mean - before - exact.NU / (1 - exact.NU) * before
+            + exact.YOUNG / (1 - exact.NU**2) * stretch)
+    wanted = exact.stresses(np.ones(len(angle)), angle)[1]
+    largest = np.max(np.abs(wanted))
+    print("  hoop stress at the side %.3f MPa, formula %.3f; at the crown %.3f "
+          "MPa, formula %.3f" % (hoop[0] / 1e6, wanted[0] / 1e6,
+                                 hoop[-1] / 1e6, wanted[-1] / 1e6))
+    errors["hoop stress"] = float(np.max(np.abs(hoop - wanted)) / largest)
+    errors["hoop stress at the side"] = float(abs(hoop[0] / wanted[0] - 1))
+    errors["hoop stress at the crown"] = float(abs(hoop[-1] / wanted[-1] - 1))
+
+    centre = x[grid.cells].mean(axis=1)
+    r = np.hypot(centre[:, 0], centre[:, 2])
+    c, s = centre[:, 0] / r, centre[:, 2] / r
+    xx, yy, zz, _, xz, _ = grid.cell_data["stress"].T
+    found = np.stack([xx * c**2 + zz * s**2 + 2 * xz * c * s,
+                      xx * s**2 + zz * c**2 - 2 * xz * c * s,
+                      (zz - xx) * c * s + xz * (c**2 - s**2), yy])
+    difference = found - exact.stresses(r, np.arctan2(centre[:, 2],
+                                                      centre[:, 0]))
+    rms = np.sqrt(np.average(difference**2, axis=1,
+                             weights=volumes(grid) * (r < 1.5)))
+    for name, error in zip(("radial", "hoop", "shear", "axial"), rms):
+        errors["%s stress of cells, rms" % name] = float(error / largest)
     errors["energy residual"] = residual_of(energies(output))
     return errors
 
