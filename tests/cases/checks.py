@@ -1633,7 +1633,10 @@ def space_fill(case, folder, output, histories):
 
 
 def space_tunnel(case, folder, output, histories):
-    """Displacements of the wall of a tunnel, relative to the largest."""
+    """Displacements of the wall of a tunnel, relative to the largest; the hoop
+    stress from the strain of the wall's edges at an end, whose radial stress is
+    gone, all along the wall, at its side and at its crown; and the stresses of
+    the cells up to 1.5 m by root mean square; all relative to the largest."""
     exact = reference_module(folder)
     grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
     x, u = grid.points, grid.point_data["displacement"]
@@ -1643,6 +1646,40 @@ def space_tunnel(case, folder, output, histories):
                             / np.max(np.abs(wanted))),
               "core left": float(np.sum(np.hypot(x[:, 0], x[:, 2])
                                         < 1 - 1e-6))}
+
+    rim = np.flatnonzero(wall & (x[:, 1] < 1e-6))
+    rim = rim[np.argsort(np.arctan2(x[rim, 2], x[rim, 0]))]
+    edge = np.diff(x[rim], axis=0)
+    stretch = np.sum(np.diff(u[rim], axis=0) * edge, axis=1) / np.sum(
+        edge**2, axis=1)
+    middle = 0.5 * (x[rim[1:]] + x[rim[:-1]])
+    angle = np.arctan2(middle[:, 2], middle[:, 0])
+    mean, half = (exact.SXX + exact.SZZ) / 2, (exact.SXX - exact.SZZ) / 2
+    before = mean + half * np.cos(2 * angle)    # radial
+    hoop = (2 * mean - before - exact.NU / (1 - exact.NU) * before
+            + exact.YOUNG / (1 - exact.NU**2) * stretch)
+    wanted = exact.stresses(np.ones(len(angle)), angle)[1]
+    largest = np.max(np.abs(wanted))
+    print("  hoop stress at the side %.3f MPa, formula %.3f; at the crown %.3f "
+          "MPa, formula %.3f" % (hoop[0] / 1e6, wanted[0] / 1e6,
+                                 hoop[-1] / 1e6, wanted[-1] / 1e6))
+    errors["hoop stress"] = float(np.max(np.abs(hoop - wanted)) / largest)
+    errors["hoop stress at the side"] = float(abs(hoop[0] / wanted[0] - 1))
+    errors["hoop stress at the crown"] = float(abs(hoop[-1] / wanted[-1] - 1))
+
+    centre = x[grid.cells].mean(axis=1)
+    r = np.hypot(centre[:, 0], centre[:, 2])
+    c, s = centre[:, 0] / r, centre[:, 2] / r
+    xx, yy, zz, _, xz, _ = grid.cell_data["stress"].T
+    found = np.stack([xx * c**2 + zz * s**2 + 2 * xz * c * s,
+                      xx * s**2 + zz * c**2 - 2 * xz * c * s,
+                      (zz - xx) * c * s + xz * (c**2 - s**2), yy])
+    difference = found - exact.stresses(r, np.arctan2(centre[:, 2],
+                                                      centre[:, 0]))
+    rms = np.sqrt(np.average(difference**2, axis=1,
+                             weights=volumes(grid) * (r < 1.5)))
+    for name, error in zip(("radial", "hoop", "shear", "axial"), rms):
+        errors["%s stress of cells, rms" % name] = float(error / largest)
     errors["energy residual"] = residual_of(energies(output))
     return errors
 
@@ -1706,6 +1743,38 @@ def in_situ_rest(case, folder, output, histories):
         "stress": float(np.max(np.abs(errors)) / largest),
         # linear triangles have them for the forces of the nodes
         "joint traction": float(np.max(nearest) / largest)}
+
+
+def wedge_forces(case, folder, output, histories):
+    """Normal forces on both planes of a wedge, relative to the closed form, and
+    the shear forces relative to the weight: with the angle "sliding" friction along
+    the line of intersection in each row after the load has risen, without it in the
+    last row, at rest, both with the normal forces the weight."""
+    exact = reference_module(folder)
+    wanted = exact.on_both(np.array([0, 0, -exact.weight]))[1:]
+    rows = (histories["time"] > 0.15 if "sliding" in case
+            else slice(-1, None))
+    forces = [np.stack([histories[plane + axis][rows] for axis in "xyz"], 1)
+              for plane in "ab"]
+    errors, shears = {}, []
+    for plane, force, n, on in zip("ab", forces, (exact.a, exact.b), wanted):
+        across = force @ n
+        errors["normal force on " + plane] = float(
+            np.max(np.abs(across / on - 1)))
+        shears.append(force - across[:, None] * n)
+        print("  on %s %.5f to %.5f of the weight, formula %.5f" % (
+            plane, np.min(across) / exact.weight,
+            np.max(across) / exact.weight, on / exact.weight))
+    if "sliding" in case:
+        mu = np.tan(np.radians(case["sliding"]))
+        wrong = [shear + mu * on * exact.line
+                 for shear, on in zip(shears, wanted)]
+        errors["shear forces"] = float(
+            np.max(np.linalg.norm(wrong, axis=2)) / exact.weight)
+    else:
+        wrong = sum(forces) - exact.weight * np.array([0, 0, 1.0])
+        errors["weight"] = float(np.max(np.abs(wrong)) / exact.weight)
+    return {**errors, **energy_residual(case, folder, output, histories)}
 
 
 def factor_of_safety(case, folder, output, histories):

@@ -1,6 +1,6 @@
 // A block of 1 m x 1 m on a base whose top falls by 35 degrees, 30 degrees from
 // x to y; the block's top is parallel to it.
-h = 0.25;
+DefineConstant[ h = 0.25 ];
 drop = Tan(35 * Pi / 180);
 along_x = -drop * Cos(30 * Pi / 180);
 along_y = -drop * Sin(30 * Pi / 180);

@@ -5,6 +5,10 @@
 
 N s1 - s3 = q with q = 2 c sqrt(N), flow along N_psi s1 - s3; on the edges of the
 pyramid two planes share the flow, tension is cut off at s_t with flow along s1.
+
+Under given stresses the factor F of safety divides c and t = tan(phi) until
+(s1 - s3)/2 = c/F cos(phi') - (s1 + s3)/2 sin(phi') with tan(phi') = t/F, which is
+F^2 = ((c - t (s1 + s3)/2) / ((s1 - s3)/2))^2 - t^2, whatever s2 is.
 """
 import os
 
@@ -68,8 +72,16 @@ def apex():
     return s, s, s, u, u
 
 
+def factor(s1, s3, degrees):
+    t = np.tan(np.radians(degrees))
+    return np.sqrt(((C - t * (s1 + s3) / 2) / ((s1 - s3) / 2))**2 - t**2)
+
+
 for make in (compression, extension, cut, plane, apex):
     np.savetxt(os.path.join(HERE, "reference_%s.csv" % make.__name__),
                np.column_stack([TIME, *make()]), delimiter=",", fmt="%.8g",
                comments="", header="time [s],sx [Pa],sy [Pa],sz [Pa],ux [m],"
                "uy [m]")
+np.savetxt(os.path.join(HERE, "factors.csv"),
+           [[factor(-2e6, -6e6, 30), factor(-2e6, -3.1e6, 0)]], delimiter=",",
+           fmt="%.8g", comments="", header="friction [-],no friction [-]")
