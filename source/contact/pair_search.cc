@@ -65,7 +65,7 @@ namespace quoin
 
   ContactPair PairSearch::new_pair(const EdgeEnds &a, const EdgeEnds &b) const
   {
-    // The lower side is the one whose normal points up, or right if upright,
+    // The lower side is the one whose normal points up, or right if vertical,
     // as in the mesh.
     const auto normal = [](const EdgeEnds &e, double *n)
     {

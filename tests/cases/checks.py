@@ -138,7 +138,7 @@ def cable_stiffness(case, folder, output, histories):
 
 
 def water_balance(case, folder, output, histories):
-    """What flows in, out and is stored closes to 1e-10 of what went through;
+    """What flows in, out and is stored closes to 1e-10 of the flow;
     the last flows at boundaries are those of the table "flows"."""
     table, _ = read_table(os.path.join(output, "flow.csv"))
     went = np.maximum(table["inflow"] + table["outflow"], 1e-300)

@@ -59,7 +59,7 @@ namespace quoin
     }
   };
 
-  /** Dissipated energies [J] of the points that went through each lane. */
+  /** Dissipated energies [J] of the points in each lane. */
   template <int lanes>
   struct DissipationLanes
   {

@@ -1,4 +1,4 @@
-// A square of 1 m in two halves, their joint "joint" upright between them.
+// A square of 1 m in two halves, their vertical joint "foot" between them.
 Point(1) = {0, 0, 0};
 Point(2) = {0.5, 0, 0};
 Point(3) = {1, 0, 0};

@@ -188,6 +188,10 @@ def main():
     write("wide_front.csv", "time [s],quarter [Pa]",
           [(1e-4 * t, 1e5 * (1 - 0.5 / front(1e-4 * t, aperture=1e-2)))
            for t in times])
+    # under its weight alone it falls at one velocity
+    q = 1e-4**3 / (12 * MU) * 9810.0
+    write("drain.csv", "time [s],outflow [m^3/s]",
+          [(0.6 * k, q) for k in range(1, 101)])
     # full pressure at rest; the cubic law over 2 m once the wall is free
     q = 2e-4**3 / (12 * MU) * 1e4 * 10 / 2
     write("drift.csv", "time [s],drift [m^3/s],lake [m^3/s],middle [Pa]",

@@ -21,7 +21,7 @@ PLANES = ((0, 1), (0, 2), (1, 2))
 
 
 def rows():
-    """Displacements at the end of each stage; the box is let go before each shear."""
+    """Displacements at the end of each stage; the box is released before each shear."""
     for i in range(3):
         young = 1 / (1 / E + 1 / (KN * SPACINGS[i]))
         print("E_%s %.5g Pa" % ("xyz"[i], young))

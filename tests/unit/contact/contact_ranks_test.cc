@@ -40,9 +40,9 @@ namespace
     return result;
   }
 
-  /** Upright stripes [m], from rank to rank, so that blocks are divided;
+  /** Vertical stripes [m], from rank to rank, so that blocks are divided;
       those of odd blocks begin farther to the right. */
-  Ranks in_upright_stripes(const BlockMesh<2> &mesh, const double width)
+  Ranks in_vertical_stripes(const BlockMesh<2> &mesh, const double width)
   {
     Ranks result;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
@@ -363,7 +363,7 @@ TEST(ContactsOfRanks, GoOnFromJointsThatAreHandedOver)
   const Ranks whole
       = whole_blocks(mesh, [&](const unsigned int block)
                      { return (block + n_ranks() - 1) % n_ranks(); });
-  for (const Ranks &ranks : { whole, in_upright_stripes(mesh, 2.) })
+  for (const Ranks &ranks : { whole, in_vertical_stripes(mesh, 2.) })
   {
     Twins twins(mesh, ranks, { joint, touching() });
     if (ranks != whole)
@@ -396,7 +396,7 @@ TEST(ContactsOfRanks, GoOnWhereABlockIsDivided)
   coulomb_law(softening).residual = { 0., 0.4, 0. };
   for (const double width : { 0.9, 0.45 })
   {
-    Twins twins(mesh, in_upright_stripes(mesh, width), { softening });
+    Twins twins(mesh, in_vertical_stripes(mesh, width), { softening });
     twins.expect_divided();
     for (unsigned int i = 0; i < 60; ++i)
     {

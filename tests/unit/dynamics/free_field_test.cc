@@ -74,7 +74,7 @@ namespace
   }
 } // namespace
 
-TEST(FreeField, UprightWavesPassAsIfTheModelWereEndless)
+TEST(FreeField, VerticalWavesPassAsIfTheModelWereEndless)
 {
   // Both kinds at once; the corners have other lumped masses than the column.
   BlockMesh<2> mesh;

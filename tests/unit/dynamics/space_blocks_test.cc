@@ -572,7 +572,7 @@ namespace
   }
 } // namespace
 
-TEST(SpaceFreeField, UprightWavesPassAsIfTheModelWereEndless)
+TEST(SpaceFreeField, VerticalWavesPassAsIfTheModelWereEndless)
 {
   Box box({ 6, 4, 20 }, 1., stone);
   stand_between_free_fields(box, false);
