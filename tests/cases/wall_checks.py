@@ -200,14 +200,20 @@ def solvers_agree(case, prm, explicit, implicit):
         "explicit curve, missing": 1.0 - curves["share of the explicit curve"]}
 
 
-def plane_wall(case, folder, output, histories):
-    """The run in three dimensions in @p output against the plane wall of
-    plane.prm: stiffness of the first step of the push, and the force from then
-    on by the largest one."""
+def plane_run(case, folder, output):
+    """The histories of the plane wall of plane.prm, beside the run in three
+    dimensions in @p output."""
     plane = os.path.join(output, "plane")
     common.run(case["quoin"], os.path.join(folder, "plane.prm"), plane,
                case.get("set", []))
-    reference, _ = common.read_table(os.path.join(plane, "histories.csv"))
+    return common.read_table(os.path.join(plane, "histories.csv"))[0]
+
+
+def plane_wall(case, folder, output, histories):
+    """The run in three dimensions in @p output against the plane wall:
+    stiffness of the first step of the push, and the force from then on by the
+    largest one."""
+    reference = plane_run(case, folder, output)
     pushed = reference["time"] > case["settled"] + 1e-9
     wanted = reference["force"][pushed]
     force = np.interp(reference["time"][pushed], histories["time"],
@@ -215,6 +221,25 @@ def plane_wall(case, folder, output, histories):
     return {"stiffness": float(abs(force[0] / wanted[0] - 1)),
             "force": float(np.max(np.abs(force - wanted))
                            / np.max(np.abs(wanted)))}
+
+
+def plane_wall_beyond_peak(case, folder, output, histories):
+    """The same beyond the peak, which must be "fall" of it above the last
+    force: peaks, works of the push, and forces from the time "broken" on by
+    the peak. Between them cracks run through by jumps."""
+    curves = [(table["time"], -table["force"])
+              for table in (plane_run(case, folder, output), histories)]
+    times = np.linspace(case["settled"], curves[0][0][-1], 401)[1:]
+    peaks = [np.max(force) for _, force in curves]
+    wanted, found = (np.interp(times, *curve) for curve in curves)
+    if wanted[-1] > (1 - case["fall"]) * peaks[0]:
+        raise Failure("the plane wall ends at %g N, its peak is %g N"
+                      % (wanted[-1], peaks[0]))
+    broken = times >= case["broken"]
+    return {"peak": float(abs(peaks[1] / peaks[0] - 1)),
+            "work": float(abs(found.sum() / wanted.sum() - 1)),
+            "broken": float(np.max(np.abs(found - wanted)[broken])
+                            / peaks[0])}
 
 
 def note_solvers(case, numbers):
