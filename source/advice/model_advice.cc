@@ -449,11 +449,10 @@ namespace quoin
       {
         const MaterialParameters &material = parameters.model.materials[m];
         Checks checks(advice, "material " + material.name + ": ");
-        checks.warn_if(!is_used[m] && !material.groups.empty()
-                           && !is_for_later(material, parameters),
+        checks.warn_if(!is_used[m] && !is_for_later(material, parameters),
                        "it is that of no block, and no stage gives it to one "
-                       "by its 'Materials'. Correct its 'Groups', or remove "
-                       "it from 'Names'.");
+                       "by its 'Materials'. Name it there or in 'Groups', or "
+                       "remove it from 'Names'.");
         checks.warn_if(can_lock && is_used[m] && !material.rigid
                            && material.elastic.poisson > locking_poisson,
                        "with Poisson's ratio ", material.elastic.poisson,

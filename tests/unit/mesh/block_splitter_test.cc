@@ -232,7 +232,7 @@ TEST(BlockSplitter, FindsJointsOfBlocksThatAreApart)
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
 
-  expect_consistent(mesh, 4.);
+  expect_consistent(mesh, 2. * (2. - 3e-4));
   EXPECT_EQ(mesh.n_blocks(), 2U);
   EXPECT_EQ(mesh.n_vertices(), 12U);
   ASSERT_EQ(mesh.joint_faces.size(), 2U);
