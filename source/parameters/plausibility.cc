@@ -468,6 +468,16 @@ namespace quoin
     return warnings;
   }
 
+  namespace
+  {
+    /** The file of a place "FILE, line N" or "FILE with --set ...". */
+    std::string file_of(const std::string &place)
+    {
+      return place.substr(
+          0, std::min(place.rfind(", line "), place.find(" with --set")));
+    }
+  } // namespace
+
   std::vector<std::string> idle_properties(const NotedParameters &prm,
                                            const ParameterSection &top)
   {
@@ -476,18 +486,20 @@ namespace quoin
       for (const std::string &name : ParameterSection(top, kind).list("Names"))
       {
         const std::string path = kind + "/" + name;
-        // An option may choose another law for a file that is made for one.
-        const auto law = prm.places.find(path + "/Law");
-        if (law != prm.places.end()
-            && law->second.find(" with --set") != std::string::npos)
-          continue;
+        // An option or a file may choose another law for one that it includes.
+        const auto law          = prm.places.find(path + "/Law");
+        const auto is_elsewhere = [&](const std::string &place)
+        {
+          return place.find(" with --set") != std::string::npos
+                 || (law != prm.places.end()
+                     && file_of(law->second) != file_of(place));
+        };
         std::string names, place;
         for (auto entry = prm.places.lower_bound(path + "/");
              entry != prm.places.end()
              && entry->first.rfind(path + "/", 0) == 0;
              ++entry)
-          if (prm.read.count(entry->first) == 0
-              && entry->second.find(" with --set") == std::string::npos)
+          if (prm.read.count(entry->first) == 0 && !is_elsewhere(entry->second))
           {
             names += (names.empty() ? "'" : ", '")
                      + entry->first.substr(path.size() + 1) + "'";
