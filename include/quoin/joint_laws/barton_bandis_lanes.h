@@ -51,14 +51,14 @@ namespace quoin
       const Value worn  = worn_share(points, size);
       const Bits closed = closure >= 0.;
 
-      // Those that stick without roughness, and with an angle in place of its
+      // Those that stick without roughness, and with the first terms of the
       // tangent, stick all the more with them. Most points that stick do; the
       // others are found to stick by flows of their own, which takes the
       // logarithm and the tangent.
-      const Value basic = basic_share(worn);
-      const Value least
-          = basic < 1. ? law.residual_angle * basic : none + basic_friction;
-      points.elastic = closed & (law.divisor * size <= pressure * least);
+      const Value basic = basic_share(worn), angle = law.residual_angle * basic;
+      const Value least = basic < 1. ? angle * (1. + angle * angle / 3.)
+                                     : none + basic_friction;
+      points.elastic    = closed & (law.divisor * size <= pressure * least);
       // A stage may put this law in place of one that remembers friction,
       // which the first step forgets.
       points.elastic

@@ -111,12 +111,19 @@ namespace quoin
       return F::exponential(exponent * F::logarithm(a));
     }
 
+    /** exp(-a), which is nothing beside other numbers long before it becomes
+        one that the processor is slow with. */
+    static QUOIN_INLINE Value decay(const Value &a)
+    {
+      return F::exponential(-F::minimum(a, Value{} + 700.));
+    }
+
     /** tan(phi_m) [-] after @p worn slip [m]. */
     QUOIN_INLINE Dual friction_after(const Dual &worn) const
     {
       // The slip of new contacts is infinite.
       const Value left = (law.initial_angle - law.residual_angle)
-                         * F::exponential(-worn.value * wear_rate);
+                         * decay(worn.value * wear_rate);
       Value sine, cosine;
       F::sine_cosine(law.residual_angle + left, sine, cosine);
       const Value tangent = sine / cosine;
@@ -239,7 +246,7 @@ namespace quoin
         const Dual tau    = Dual::choose(bends, start + stiff, start);
         const Dual rest   = Dual::choose(bends, growth - stiff, growth);
         const Dual way    = rest / (strength * (Dual{ one, none } - again));
-        const Value left  = F::exponential(-way.value);
+        const Value left  = decay(way.value);
         const Dual yields
             = strength - (strength - tau) * Dual{ left, -left * way.by };
         const Dual reached

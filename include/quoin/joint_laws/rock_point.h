@@ -92,7 +92,7 @@ namespace quoin
       if (first < 0. && rest.by[0] < least_slope)
         return uncoupled;
       (rest.value > 0. ? high : low) = step.closure;
-      const double next = step.closure - rest.value / rest.by[0];
+      const double next              = step.closure - rest.value / rest.by[0];
       if (std::abs(rest.value) <= precision)
       {
         step.closure = next; // to rounding, in one more step

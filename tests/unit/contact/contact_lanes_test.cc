@@ -264,7 +264,8 @@ namespace
     return mesh;
   }
 
-  void expect_same(const Comparison &all, const std::string &name)
+  void expect_same(const Comparison &all, const std::string &name,
+                   const double tolerance)
   {
     EXPECT_EQ(all.n_states, 0U) << name;
     EXPECT_GT(all.n_slipping, 100U) << name;
@@ -283,7 +284,7 @@ namespace
                                    std::make_pair("internal", all.internal),
                                    std::make_pair("place", all.place),
                                    std::make_pair("energy", all.energy) })
-      EXPECT_LE(d.error, 1e-14 * d.size) << name << ", " << word;
+      EXPECT_LE(d.error, tolerance * d.size) << name << ", " << word;
   }
 
   template <int lanes>
@@ -294,10 +295,16 @@ namespace
            JointLaw(weakening()), JointLaw(rock_test::rough()),
            JointLaw(rock_test::yielding()) })
     {
+      // The traction of continuously yielding joints may stand above their
+      // strength by a hundred times, as the pressure falls, and comes down by
+      // a function that takes rounding that many times.
+      const double tolerance
+          = std::holds_alternative<ContinuouslyYieldingLaw>(law) ? 1e-13
+                                                                 : 1e-14;
       expect_same(compare(rows(), with_law(law, "unnamed"), lanes, 2e-3, 2e-3),
-                  kind_of_law(law));
+                  kind_of_law(law), tolerance);
       expect_same(compare(stack(), with_law(law, "joint"), lanes, 1e-3, 2e-3),
-                  kind_of_law(law) + " from a joint");
+                  kind_of_law(law) + " from a joint", tolerance);
     }
   }
 } // namespace

@@ -146,8 +146,11 @@ namespace
       for (int l = 0; l < lanes; ++l)
       {
         PointOf<Law, dim> point;
-        if (walk % 4 == 3 && l % 2 == 0)
+        if (!point.internal.empty() && walk % 4 == 3 && l % 2 == 0)
+        {
           law.wear_out(point); // a new contact
+          point.state = JointState::slipped;
+        }
         write_point(point, first, l);
       }
       double opening[lanes]{}, opening_from[lanes]{}, opening_to[lanes]{};
@@ -425,6 +428,8 @@ namespace
       law.roughness = 2e-5;
       check(law, 3e-4);
     }
+    if (dim == 3) // slip in space closes as in the plane
+      return;
     // The closure of other exponents, and one that reaches its end
     for (const double exponent : { 0., 0.7, 1. })
     {
