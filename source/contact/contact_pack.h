@@ -6,11 +6,11 @@
 
 #include <quoin/contact_geometry/contact_state.h>
 #include <quoin/contact_geometry/pair_lanes.h>
-#include <quoin/joint_laws/barton_bandis_lanes.h>
-#include <quoin/joint_laws/composite_lanes.h>
-#include <quoin/joint_laws/continuously_yielding_lanes.h>
-#include <quoin/joint_laws/coulomb_lanes.h>
-#include <quoin/joint_laws/slip_weakening_lanes.h>
+#include <quoin/law_lanes/barton_bandis_lanes.h>
+#include <quoin/law_lanes/composite_lanes.h>
+#include <quoin/law_lanes/continuously_yielding_lanes.h>
+#include <quoin/law_lanes/coulomb_lanes.h>
+#include <quoin/law_lanes/slip_weakening_lanes.h>
 
 #include <cstddef>
 #include <cstring>

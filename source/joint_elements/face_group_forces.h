@@ -5,11 +5,11 @@
 #define quoin_source_joint_elements_face_group_forces_h
 
 #include <quoin/joint_elements/face_groups.h>
-#include <quoin/joint_laws/barton_bandis_lanes.h>
-#include <quoin/joint_laws/composite_lanes.h>
-#include <quoin/joint_laws/continuously_yielding_lanes.h>
-#include <quoin/joint_laws/coulomb_lanes.h>
-#include <quoin/joint_laws/slip_weakening_lanes.h>
+#include <quoin/law_lanes/barton_bandis_lanes.h>
+#include <quoin/law_lanes/composite_lanes.h>
+#include <quoin/law_lanes/continuously_yielding_lanes.h>
+#include <quoin/law_lanes/coulomb_lanes.h>
+#include <quoin/law_lanes/slip_weakening_lanes.h>
 
 #include <algorithm>
 #include <limits>

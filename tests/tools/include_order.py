@@ -4,7 +4,7 @@
 """Modules include only from their left:
 
 base < mesh, layout, materials, joints, elastodynamics
-     < joint_laws, operators, rock, tdbem
+     < joint_laws, operators, rock, tdbem < law_lanes
      < block_elements, joint_elements, output, signals
      < blocks, contact, loads, water
      < motions
@@ -20,7 +20,7 @@ import sys
 
 TIERS = [["base"],
          ["mesh", "layout", "materials", "joints", "elastodynamics"],
-         ["joint_laws", "operators", "rock", "tdbem"],
+         ["joint_laws", "operators", "rock", "tdbem"], ["law_lanes"],
          ["block_elements", "contact_geometry", "joint_elements", "output", "signals"],
          ["blocks", "contact", "loads", "water"], ["motions"], ["absorbing", "farfield", "stages", "reinforcement", "structures"], ["model"], ["loading"], ["dynamics"], ["implicit", "results"], ["parameters"],
          ["advice"], ["problems"], ["block_problem", "boundary_problem"], ["application"]]

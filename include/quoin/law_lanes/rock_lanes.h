@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_joint_laws_rock_lanes_h
-#define quoin_joint_laws_rock_lanes_h
+#ifndef quoin_law_lanes_rock_lanes_h
+#define quoin_law_lanes_rock_lanes_h
 
 #include <quoin/joint_laws/rock_point.h>
 #include <quoin/joints/joint_lanes.h>

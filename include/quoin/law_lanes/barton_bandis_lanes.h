@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_joint_laws_barton_bandis_lanes_h
-#define quoin_joint_laws_barton_bandis_lanes_h
+#ifndef quoin_law_lanes_barton_bandis_lanes_h
+#define quoin_law_lanes_barton_bandis_lanes_h
 
 #include <quoin/joint_laws/barton_bandis_law.h>
-#include <quoin/joint_laws/rock_lanes.h>
+#include <quoin/law_lanes/rock_lanes.h>
 
 namespace quoin
 {
