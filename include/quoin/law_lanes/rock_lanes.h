@@ -149,9 +149,8 @@ namespace quoin
       const Bits ends   = F::absolute(rest) <= precision;
       const Value other = high < infinity ? 0.5 * (low + high)
                                           : closure + 2. * F::absolute(rest);
-      closure           = active
-                              ? ((ends | ((next > low) & (next < high))) ? next : other)
-                              : closure;
+      const Bits inside = ends | ((next > low) & (next < high));
+      closure           = active ? (inside ? next : other) : closure;
       active &= ~ends;
     }
     step.closure = coupled ? closure : step.closure;
