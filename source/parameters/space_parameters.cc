@@ -136,9 +136,6 @@ namespace quoin
                        "section 'Blocks': 'Names'", "Leave it empty.");
     refusals.refuse_if(!parameters.beams.empty(), "section 'Beams': 'Names'",
                        "Leave it empty.");
-    refusals.refuse_if(parameters.measure_bandwidth,
-                       "section 'Output': 'Measure bandwidth = yes'",
-                       "Take 'no'.");
     check_materials(parameters, refusals);
     check_joints(parameters, refusals);
     check_loads(parameters, refusals);
