@@ -421,7 +421,8 @@ namespace quoin
           last = &stage;
       if (last)
         Checks(advice, "stage " + last->name + ": ")
-            .warn_if(last->release < 1., 100. * (1. - last->release),
+            .warn_if(last->release < 1. && last->end_conditions.empty(),
+                     100. * (1. - last->release),
                      " % of the forces of excavated blocks are never released, "
                      "as its 'Release = ",
                      last->release,

@@ -151,7 +151,7 @@ namespace quoin
         look_for_lost_blocks();
       if (balance)
         this->follow_joint_motion();
-      // Those of the first step are due to motion before the stage.
+      // Failures in the first step are due to motion before the stage.
       if (state.stage_step > 1)
         note_failed_joints(state);
       if (outputs.fields_are_due(state.time, dt))

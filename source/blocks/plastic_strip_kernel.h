@@ -162,7 +162,8 @@ namespace quoin
       }
       if (initial)
       {
-        // That of a cell which has yielded is part of its elastic stretch.
+        // The initial stress of a cell which has yielded is part of its elastic
+        // stretch.
         alignas(32) static constexpr double none[4]{};
         Value s0[4];
         L::load_four(

@@ -134,7 +134,7 @@ namespace quoin
       Bounds bounds;
     };
 
-    /** Those of one block each. */
+    /** Chains of the edges of one block each. */
     std::vector<Chain> chains_of(const ContactEdges &edges,
                                  const std::vector<EdgeEnds> &ends)
     {

@@ -233,8 +233,8 @@ namespace quoin
       }
     };
 
-    /** The same forces alone: those of add_face_forces() with the force
-        f(k, frame, gap) of point k on the lower side. */
+    /** The forces alone, without derivatives: those of add_face_forces() with
+        the force f(k, frame, gap) of point k on the lower side. */
     template <typename Force>
     std::array<double, n_dofs> face_forces(const SpaceJointFace &face,
                                            const NodeRecord<3> *nodes,

@@ -486,7 +486,7 @@ namespace quoin
   template <typename Loop>
   auto NodalLoad<dim>::by_nodes(const Loop &loop) const
   {
-    // Those of gravity ascend.
+    // Nodes of gravity ascend.
     if (is_gravity && !nodes.empty()
         && nodes.back() - nodes.front() + 1 == nodes.size())
       return loop([first = std::size_t(nodes.front())](const std::size_t i)

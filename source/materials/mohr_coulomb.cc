@@ -169,7 +169,7 @@ namespace quoin
     }
   }
 
-  // The same in plane stress, where the third principal stress is zero: the
+  // The return in plane stress, where the third principal stress is zero: the
   // elastic domain of the two others is a polygon. Yielding with the free
   // direction limits the major one from above ('tension', too) and the minor
   // one from below ('squeeze'). The latter may violate a shear plane that the

@@ -487,12 +487,15 @@ namespace quoin
       {
         const std::string path = kind + "/" + name;
         // An option or a file may choose another law for one that it includes.
-        const auto law          = prm.places.find(path + "/Law");
+        const auto law       = prm.places.find(path + "/Law");
+        const auto is_option = [](const std::string &place)
+        { return place.find(" with --set") != std::string::npos; };
         const auto is_elsewhere = [&](const std::string &place)
         {
-          return place.find(" with --set") != std::string::npos
+          return is_option(place)
                  || (law != prm.places.end()
-                     && file_of(law->second) != file_of(place));
+                     && (is_option(law->second)
+                         || file_of(law->second) != file_of(place)));
         };
         std::string names, place;
         for (auto entry = prm.places.lower_bound(path + "/");

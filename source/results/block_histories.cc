@@ -149,7 +149,7 @@ namespace quoin
       return;
     before.nodes    = state.nodes;
     before.velocity = state.velocity;
-    // Those of ghosts are of the step before.
+    // Velocities of ghosts are those of the step before.
     if (model.joints().has_dashpots())
       model.nodes().exchange().update_ghosts(before.velocity.data());
   }

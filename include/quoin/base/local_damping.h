@@ -28,7 +28,7 @@ namespace quoin
     return std::copysign(std::min(strength, 0.5 * std::abs(sum)), sum);
   }
 
-  /** The same of several degrees of freedom. */
+  /** The reduction of velocity of several degrees of freedom at once. */
   template <int lanes>
   QUOIN_INLINE typename Lanes<lanes>::Value
   local_damping_velocity(const typename Lanes<lanes>::Value &strength,

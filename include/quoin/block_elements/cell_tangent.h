@@ -34,8 +34,8 @@ namespace quoin
   bool linearise_cell(const BlockForcesData<2> &data, unsigned int cell,
                       const NodeRecord<2> *nodes, PlasticHistory &history,
                       CellLinearisation &result, bool with_stiffness = true);
-  /** The same of a tetrahedron, always true. Where @p history is empty no cell
-      yields. */
+  /** Linearises a tetrahedron in the same way and returns true. Where @p
+     history is empty no cell yields. */
   bool linearise_cell(const BlockForcesData<3> &data, unsigned int cell,
                       const NodeRecord<3> *nodes, PlasticHistory &history,
                       CellLinearisation &result, bool with_stiffness = true);

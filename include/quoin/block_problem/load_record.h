@@ -120,10 +120,10 @@ namespace quoin
       bool is_of_means;      /**< over a tenth of the rows */
     };
 
-    /** Along axis @p d; none that is to be warned of: empty. */
+    /** What supports lack along axis @p d; empty: nothing to be warned of. */
     std::optional<Lack> lack(unsigned int d) const;
-    /** That of the largest means over a tenth of the rows, at any size; empty:
-        there are too few rows. */
+    /** What the largest means over a tenth of the rows lack, however little;
+        empty: there are too few rows. */
     std::optional<Lack> lack_of_means(unsigned int d) const;
 
     /** Numbers of a row: time [s], applied forces and forces of supports [N].

@@ -85,7 +85,7 @@ namespace quoin
     {
       return edge_links[edge];
     }
-    /** Where the nodes are, compact [m]. */
+    /** Positions of the nodes of edges, without gaps between them [m]. */
     const AlignedArray<dealii::Tensor<1, 2>> &positions() const
     {
       return position;

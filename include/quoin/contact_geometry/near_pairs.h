@@ -111,14 +111,15 @@ namespace quoin
         return last;
       }
     };
-    /** Those of moving edge @p e. */
+    /** The entries of pairs that moving edge @p e is in. */
     Entries entries_of(const unsigned int e) const
     {
       return { edge_pairs.data() + edge_pairs_begin[e],
                edge_pairs.data() + edge_pairs_begin[e + 1] };
     }
 
-    /** That of entry @p i, @p pair; false if its edges do not overlap. */
+    /** Finds the geometry of @p pair, entry @p i; false: its edges do not
+        overlap. */
     bool geometry(const ContactPair &pair, unsigned int i,
                   Geometry &result) const;
     /** Slip of a point of entry @p i [m]. */

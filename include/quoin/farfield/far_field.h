@@ -251,7 +251,7 @@ namespace quoin
       std::uint64_t step = 0;
       Eigen::VectorXd before, displacement, traction;
     };
-    /** That of @p step, found once. */
+    /** The incident waves in @p step, which are evaluated once. */
     const IncidentStep &incident_step(std::uint64_t step);
 
     FarFieldDomain problem;

@@ -110,7 +110,7 @@ namespace quoin
     void add_stored_energy(const State<2> &state,
                            EnergyAccounts &energies) const override
     {
-      // The same on all ranks.
+      // This is the same on all ranks.
       const auto *own = state.find<StaticFarFieldState>();
       if (own && is_first_rank)
         energies.far_field += own->stored;

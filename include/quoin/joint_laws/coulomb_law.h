@@ -188,7 +188,8 @@ namespace quoin
     JointDissipation update_failing(JointPoint<dim> &point, double opening,
                                     const Slip<dim> &slip) const;
 
-    /** That of open points that bear a residual tension does. */
+    /** Whether the stored energy of @p point changes with the opening, as that
+        of open points under a residual tension does. */
     template <int dim>
     bool stores_by_opening(const JointPoint<dim> &point) const
     {

@@ -36,7 +36,7 @@ namespace quoin
 
     /** A value by the place [m]. */
     using Field = std::function<double(const dealii::Point<3> &)>;
-    /** The same everywhere. */
+    /** A field that has the same value everywhere. */
     static Field uniform(const double value)
     {
       return [value](const dealii::Point<3> &) { return value; };

@@ -24,7 +24,8 @@ namespace quoin
     std::vector<CellStress<dim>> cells;
     std::vector<JointFaceStress<dim>> faces;
 
-    /** That of deformable cells, as ConstructionState::initial_stress. */
+    /** The initial stress of deformable cells in the order of
+        ConstructionState::initial_stress. */
     AlignedArray<double> packed(const NodeMap<dim> &nodes) const;
   };
 

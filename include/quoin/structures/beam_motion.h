@@ -47,7 +47,8 @@ namespace quoin
     Work advance(const StepContext &step, bool damped, bool adaptive,
                  State<2> &state);
 
-    /** As those of RigidBlocks, about the last step. */
+    /** Kinetic energy [J] and squared change of velocity of the last step, as
+        RigidBlocks has them. */
     double kinetic_energy(const State<2> &state, double share) const;
     double squared_change(const State<2> &state) const;
     /** Kinetic energy of this rank with the velocities of @p state [J]. */
