@@ -486,6 +486,10 @@ namespace quoin
       for (const std::string &name : ParameterSection(top, kind).list("Names"))
       {
         const std::string path = kind + "/" + name;
+        const std::string word
+            = ParameterSection(ParameterSection(top, kind), name).text("Law");
+        if (word == "rigid") // its moduli wait for deformable blocks
+          continue;
         // An option or a file may choose another law for one that it includes.
         const auto law       = prm.places.find(path + "/Law");
         const auto is_option = [](const std::string &place)
@@ -511,8 +515,7 @@ namespace quoin
           }
         if (!names.empty())
           warnings.push_back(
-              place + section_phrase(path) + ": 'Law = "
-              + ParameterSection(ParameterSection(top, kind), name).text("Law")
+              place + section_phrase(path) + ": 'Law = " + word
               + "' does not read " + names
               + ". Choose the law that is meant, or remove them.");
       }
