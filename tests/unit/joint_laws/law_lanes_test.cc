@@ -467,9 +467,22 @@ TEST(LawLanes, ContinuouslyYielding)
 
 namespace
 {
-  /** A law that is not specialised. */
+  /** A law that is not specialised, without an elastic part. */
   struct NewLaw : SlipWeakeningLaw
   {
+    template <int dim>
+    bool update_elastic(SlipWeakeningPoint<dim> &, double,
+                        const Slip<dim> &) const
+    {
+      return false;
+    }
+    template <int dim>
+    JointDissipation update_failing(SlipWeakeningPoint<dim> &point,
+                                    const double opening,
+                                    const Slip<dim> &slip) const
+    {
+      return SlipWeakeningLaw::update(point, opening, slip);
+    }
   };
 } // namespace
 
