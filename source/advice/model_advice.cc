@@ -394,6 +394,30 @@ namespace quoin
                      "compression.");
     }
 
+    /** Warns of stages without gravity that follow one with it. */
+    void check_weight(const Parameters &parameters, Advice &advice)
+    {
+      const auto has_weight = [&](const StageParameters &stage)
+      {
+        return std::any_of(parameters.loads.begin(), parameters.loads.end(),
+                           [&](const LoadParameters &load) {
+                             return load.type == LoadType::gravity
+                                    && names_load(stage, load.name);
+                           });
+      };
+      for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+      {
+        const StageParameters &stage  = parameters.stages[i];
+        const StageParameters *before = previous_stage(parameters.stages, i);
+        if (before && has_weight(*before) && !has_weight(stage))
+          Checks(advice, "stage " + stage.name + ": ")
+              .warn_if(true, "its 'Loads' name no gravity, but stage ",
+                       before->name,
+                       " had some: the model becomes weightless at once. Name "
+                       "the load here, too, if that is not meant.");
+      }
+    }
+
     /** Whether a stage or the far field takes @p material. */
     bool is_for_later(const MaterialParameters &material,
                       const Parameters &parameters)
@@ -501,6 +525,7 @@ namespace quoin
     check_initial_stress(model, advice);
     check_stress_at_rest(parameters, model, state, advice);
     check_forgotten_loads(parameters, advice);
+    check_weight(parameters, advice);
     check_release(parameters.stages, advice);
     check_pressures(parameters, model.nodes(), advice);
     check_signals(parameters, dim, advice);

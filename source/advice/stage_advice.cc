@@ -420,25 +420,6 @@ namespace quoin
       }
     }
 
-    /** Warns if gravity acts in the previous stage, but not in this one. */
-    void check_weight(const StageOfRun &run, Checks &checks)
-    {
-      const bool had_weight
-          = run.before
-            && std::any_of(run.parameters.loads.begin(),
-                           run.parameters.loads.end(),
-                           [&](const LoadParameters &load)
-                           {
-                             return load.type == LoadType::gravity
-                                    && names_load(*run.before, load.name);
-                           });
-      if (had_weight && !run.has(LoadType::gravity))
-        checks.warn_if(true, "its 'Loads' name no gravity, but stage ",
-                       run.before->name,
-                       " had some: the model becomes weightless at once. Name "
-                       "the load here, too, if that is not meant.");
-    }
-
     /** Size of the cells of one material, for waves. */
     template <int dim>
     struct CellSize
@@ -736,7 +717,6 @@ namespace quoin
     check_supports(run, checks);
     check_moving_water(run, checks);
     check_static_ratio(run, checks);
-    check_weight(run, checks);
     check_units(run, model.nodes().table().diagonal(), time_step, checks);
     const auto sizes = cell_sizes(model, state, run);
     double rise = 0., passage = 0.;
