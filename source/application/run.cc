@@ -164,8 +164,10 @@ namespace quoin
   {
     if (!stage_begun)
     {
-      stage = problem->make_stage(stage_index);
+      const auto start = WallClock::now();
+      stage            = problem->make_stage(stage_index);
       stage->begin();
+      set_up_time += seconds_since(start);
     }
     stage_begun = true;
     progress.start(stage->figures());
@@ -262,7 +264,7 @@ namespace quoin
     { return text_of(std::round(100. * seconds) / 100., " s"); };
     return seconds_text(set_up_time)
            + (parameters.is_boundary_model
-                  ? " before the first step"
+                  ? " besides steps"
                   : ", of which the mesh " + seconds_text(mesh_time));
   }
 

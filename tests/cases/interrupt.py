@@ -49,7 +49,11 @@ def log_of(output):
 def seconds_of_steps(output):
     """Wall time of a run, from its summary: what it takes to step."""
     with open(os.path.join(output, "summary.json")) as stream:
-        return json.load(stream)["wall time [s]"]
+        summary = json.load(stream)
+    if not 0. < summary["mesh time [s]"] < summary["set-up time [s]"]:
+        raise Failure("the set-up took %g s, the mesh %g s"
+                      % (summary["set-up time [s]"], summary["mesh time [s]"]))
+    return summary["wall time [s]"]
 
 
 def has_begun(output):

@@ -42,7 +42,7 @@ namespace quoin
     /** Says that the signal @p received, if it is not 0, ends the run. */
     void end_at(int received);
     void write_summary();
-    /** What it took to come to the first step. */
+    /** The set-up time and, of blocks, that of the mesh in words. */
     std::string set_up_text() const;
     void save_checkpoint();
     bool has_ended() const;
@@ -69,8 +69,8 @@ namespace quoin
     bool stage_begun         = false;
     int signal               = 0;  /**< signal that ends the run; 0: none */
     double wall_time         = 0.; /**< wall-clock time of all steps [s] */
-    /** Wall-clock time from the start to the first step of this process, and
-        that of reading or generating the mesh in it [s]. */
+    /** Wall-clock time of this process before its first stage and of beginning
+        stages, and that of reading or generating the mesh in it [s]. */
     double set_up_time = 0., mesh_time = 0.;
     /** Wall-clock time of the steps of this process [s]. */
     double seconds = 0.;

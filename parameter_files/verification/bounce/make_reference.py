@@ -36,6 +36,11 @@ if __name__ == "__main__":
     np.savetxt(os.path.join(HERE, "reference.csv"),
                np.transpose([times, y - HEIGHT]),
                delimiter=",", fmt="%.12g", comments="", header="time [s],y [m]")
+    # local damping of 0.8 leaves a fifth of the acceleration
+    times = np.arange(0, 0.3 + 1e-9, 4e-3)
+    np.savetxt(os.path.join(HERE, "local.csv"),
+               np.transpose([times, -(1 - 0.8) * G * times**2 / 2]),
+               delimiter=",", fmt="%.12g", comments="", header="time [s],y [m]")
     print("contact %.6f s, period %.6f s, deepest %.5f m, %.2f bounces, "
           "w %.4f /s" % (CONTACT, PERIOD, -height(np.array(PERIOD / 2)),
                          4.8 / PERIOD, W))
