@@ -50,7 +50,8 @@ def seconds_of_steps(output):
     """Wall time of a run, from its summary: what it takes to step."""
     with open(os.path.join(output, "summary.json")) as stream:
         summary = json.load(stream)
-    if not 0. < summary["mesh time [s]"] < summary["set-up time [s]"]:
+    # boundary elements alone have no mesh
+    if not 0. <= summary["mesh time [s]"] < summary["set-up time [s]"]:
         raise Failure("the set-up took %g s, the mesh %g s"
                       % (summary["set-up time [s]"], summary["mesh time [s]"]))
     return summary["wall time [s]"]
