@@ -88,8 +88,8 @@ namespace quoin
              || (names_load(*before, load.name)
                  && pushes(load, *before, start)))
                 && !names_load(stage, load.name)
-                // Another warning speaks of weight that explicit stages forget.
-                && (load.type != LoadType::gravity || parameters.is_implicit
+                // Another warning speaks of weight that stages forget.
+                && (load.type != LoadType::gravity
                     || is_in_pattern(*before, load.name))
                 && !replaces(stage, load, parameters),
             "its 'Loads' do not name the load ", load.name, ", ",
