@@ -26,6 +26,7 @@ namespace quoin
         = { { "Wall storeys", WallStorey::declare },
             { "Wall segments", WallSegment::declare },
             { "Rock regions", RockRegion::declare },
+            { "Rock bodies", RockBody::declare },
             { "Rock joints", RockJoints::declare },
             { "Rock joint sets", SpaceJointSet::declare },
             { "Materials", MaterialParameters::declare },

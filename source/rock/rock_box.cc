@@ -2,8 +2,10 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/disjoint_sets.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
+#include <quoin/rock/block_borders.h>
 #include <quoin/rock/rock_box.h>
 
 #include <algorithm>
@@ -17,6 +19,7 @@ namespace quoin
   {
     using SpacePoint  = dealii::Point<3>;
     using SpaceVector = dealii::Tensor<1, 3>;
+    using Face        = BlockCutter::Face;
 
     /** More planes than that make no blocks that could be computed. */
     constexpr unsigned int most_planes = 100000;
@@ -82,19 +85,19 @@ namespace quoin
       for (unsigned int p = 0; p < box.planes[s].size(); ++p)
       {
         RandomStream random(rock.seed, set.name + " persistence", p);
-        const unsigned int n = box.blocks.n_blocks();
+        const unsigned int n = box.pieces.n_blocks();
         for (unsigned int b = 0; b < n; ++b)
         {
           if (set.persistence < 1. && random.uniform() >= set.persistence)
             continue;
-          if (box.blocks.cut_block(b, box.planes[s][p], RockBox::surface(s))
+          if (box.pieces.cut_block(b, box.planes[s][p], RockBox::surface(s))
               == BlockCutter::refused)
           {
             ++box.n_refused;
-            box.refused_area[s] += box.blocks.section(b, box.planes[s][p]);
+            box.refused_area[s] += box.pieces.section(b, box.planes[s][p]);
           }
         }
-        if (box.blocks.n_blocks() > rock.most_blocks)
+        if (box.pieces.n_blocks() > rock.most_blocks)
           throw InputError(
               "The joint sets cut the rock into more than "
               + std::to_string(rock.most_blocks)
@@ -104,8 +107,127 @@ namespace quoin
       }
     }
 
+    /** The planes of a prism, whose normals point outwards: those of its sides,
+        then its two ends. */
+    std::vector<JointPlane> planes_of(const RockBody &body,
+                                      const Polygon &section)
+    {
+      const SpaceVector axis = (body.end - body.start) / body.length();
+      SpacePoint centre;
+      for (const dealii::Point<2> &corner : section)
+        centre += (body.place(corner, 0.5 * body.length()) - SpacePoint())
+                  / double(section.size());
+      std::vector<JointPlane> planes;
+      const auto add = [&](const SpacePoint &at, SpaceVector normal)
+      {
+        normal /= normal.norm();
+        if (normal * (at - centre) < 0.)
+          normal = -normal;
+        planes.push_back({ normal, normal * (at - SpacePoint()) });
+      };
+      for (std::size_t i = 0; i < section.size(); ++i)
+      {
+        const SpacePoint a = body.place(section[i], 0.);
+        const SpacePoint b = body.place(section[(i + 1) % section.size()], 0.);
+        add(a, dealii::cross_product_3d(b - a, axis));
+      }
+      add(body.start, axis);
+      add(body.end, axis);
+      return planes;
+    }
+
+    /** Cuts @p block; a new block belongs to the same part. */
+    BlockCutter::Result cut_by_body(RockBox &box, const unsigned int block,
+                                    const JointPlane &plane)
+    {
+      const auto result
+          = box.pieces.cut_block(block, plane, RockBox::of_bodies);
+      if (result == BlockCutter::cut)
+        box.part_of.push_back(box.part_of[block]);
+      return result;
+    }
+
+    /** Whether a convex piece lies above one of @p planes. */
+    bool is_beyond(const RockBox &box, const unsigned int piece,
+                   const std::vector<JointPlane> &planes,
+                   const double tolerance)
+    {
+      return std::any_of(
+          planes.begin(), planes.end(),
+          [&](const JointPlane &plane)
+          {
+            for (const unsigned int f : box.pieces.faces_of(piece))
+              for (const unsigned int v : box.pieces.faces()[f].loop)
+                if (plane.distance(box.pieces.vertices()[v]) < -tolerance)
+                  return false;
+            return true;
+          });
+    }
+
+    /** Cuts the pieces of the rock mass by @p body and, along its axis, those
+        inside by its rounds. */
+    void cut(const RockBoxParameters &rock, const RockBody &body, RockBox &box)
+    {
+      const double tolerance = 1e-9 * rock.low.distance(rock.high);
+      const SpaceVector axis = (body.end - body.start) / body.length();
+      const auto first       = static_cast<unsigned int>(box.parts.size());
+      const unsigned int n   = body.n_parts();
+      for (unsigned int i = 0; i < n; ++i)
+        box.parts.push_back({ body.name, body.group(i),
+                              body.is_hole || body.is_outlined ? body.name : "",
+                              body.is_hole, body.has_joints, body.size });
+      bool is_found = false;
+      for (const Polygon &section : convex_parts(body.section))
+      {
+        const std::vector<JointPlane> planes = planes_of(body, section);
+        std::vector<unsigned int> inside;
+        for (unsigned int b = 0; b < box.pieces.n_blocks(); ++b)
+          if (box.part_of[b] == none)
+            inside.push_back(b);
+        for (const JointPlane &plane : planes)
+        {
+          std::vector<unsigned int> left;
+          for (const unsigned int b : inside)
+            if (!is_beyond(box, b, planes, tolerance))
+            {
+              // What is above the plane is new.
+              cut_by_body(box, b, plane);
+              left.push_back(b);
+            }
+          inside = left;
+        }
+        for (const unsigned int b : inside)
+          if (!is_beyond(box, b, planes, tolerance))
+          {
+            box.part_of[b] = first;
+            is_found       = true;
+          }
+      }
+      if (!is_found)
+        throw InputError("section 'Rock bodies', '" + body.name
+                         + "': nothing of it lies in the box of section 'Rock "
+                           "box' and outside of earlier bodies. Check 'Start', "
+                           "'End' and the shape.");
+      double along = 0.;
+      for (unsigned int i = 0; i + 1 < n; ++i)
+      {
+        along += body.rounds[i];
+        const JointPlane plane{ axis,
+                                axis * (body.start - SpacePoint()) + along };
+        const unsigned int n_pieces = box.pieces.n_blocks();
+        for (unsigned int b = 0; b < n_pieces; ++b)
+          if (box.part_of[b] == first + i)
+          {
+            if (cut_by_body(box, b, plane) == BlockCutter::cut)
+              box.part_of.back() = first + i + 1;
+            else if (is_beyond(box, b, { plane }, tolerance))
+              box.part_of[b] = first + i + 1;
+          }
+      }
+    }
+
     /** Whether the segment a-b passes through a convex face. */
-    bool crosses(const BlockCutter &blocks, const BlockCutter::Face &face,
+    bool crosses(const BlockCutter &blocks, const Face &face,
                  const SpacePoint &a, const SpacePoint &b)
     {
       const auto &x = blocks.vertices();
@@ -166,20 +288,95 @@ namespace quoin
     return plane_normal(dip, dip_direction);
   }
 
-  double RockBox::box_volume() const
+  const RockBox::Part *RockBox::part(const unsigned int piece) const
+  {
+    return piece == BlockCutter::none || part_of[piece] == none
+               ? nullptr
+               : &parts[part_of[piece]];
+  }
+
+  bool RockBox::is_void(const unsigned int piece) const
+  {
+    const Part *of = part(piece);
+    return piece == BlockCutter::none || (of && of->is_hole);
+  }
+
+  bool RockBox::is_between_blocks(const unsigned int f) const
+  {
+    const Face &face = pieces.faces()[f];
+    const bool in = !is_void(face.inner), out = !is_void(face.outer);
+    if (!in || !out)
+      return in || out;
+    if (part_of[face.inner] != part_of[face.outer])
+      return true;
+    const Part *of = part(face.inner);
+    return face.surface != of_bodies && !(of && !of->has_joints);
+  }
+
+  bool RockBox::is_joint(const unsigned int f, const unsigned int set) const
+  {
+    const Face &face = pieces.faces()[f];
+    return face.surface == surface(set) && !is_void(face.inner)
+           && !is_void(face.outer) && is_between_blocks(f);
+  }
+
+  std::pair<std::vector<unsigned int>, unsigned int>
+  RockBox::blocks(const bool apart) const
+  {
+    DisjointSets sets(pieces.n_blocks());
+    for (unsigned int f = 0; f < pieces.faces().size(); ++f)
+    {
+      const Face &face = pieces.faces()[f];
+      if (is_void(face.inner) || is_void(face.outer))
+        continue;
+      // The name of a surface between two parts is that of either of them.
+      const Part *of = part(face.inner) ? part(face.inner) : part(face.outer);
+      const bool is_closed = face.surface == of_bodies && !apart
+                             && part_of[face.inner] != part_of[face.outer]
+                             && of->surface.empty();
+      if (is_closed || !is_between_blocks(f))
+        sets.unite(face.inner, face.outer);
+    }
+    std::vector<unsigned int> number(pieces.n_blocks(), none);
+    std::vector<unsigned int> of_set(pieces.n_blocks(), none);
+    unsigned int n = 0;
+    for (unsigned int b = 0; b < number.size(); ++b)
+    {
+      if (is_void(b))
+        continue;
+      unsigned int &of = of_set[sets.find(b)];
+      if (of == none)
+        of = n++;
+      number[b] = of;
+    }
+    return { number, n };
+  }
+
+  std::vector<double> RockBox::block_volumes() const
+  {
+    const auto [number, n] = blocks();
+    std::vector<double> volumes(n, 0.);
+    for (unsigned int b = 0; b < number.size(); ++b)
+      if (number[b] != none)
+        volumes[number[b]] += pieces.volume(b);
+    return volumes;
+  }
+
+  double RockBox::rock_volume() const
   {
     double sum = 0.;
-    for (unsigned int b = 0; b < blocks.n_blocks(); ++b)
-      sum += blocks.volume(b);
+    for (unsigned int b = 0; b < pieces.n_blocks(); ++b)
+      if (!is_void(b))
+        sum += pieces.volume(b);
     return sum;
   }
 
   double RockBox::joint_area(const unsigned int set) const
   {
     double sum = 0.;
-    for (unsigned int f = 0; f < blocks.faces().size(); ++f)
-      if (blocks.faces()[f].surface == surface(set))
-        sum += blocks.area(f).norm();
+    for (unsigned int f = 0; f < pieces.faces().size(); ++f)
+      if (is_joint(f, set))
+        sum += pieces.area(f).norm();
     return sum;
   }
 
@@ -187,20 +384,19 @@ namespace quoin
                                   const SpaceVector &direction) const
   {
     double sum = 0.;
-    for (unsigned int f = 0; f < blocks.faces().size(); ++f)
-      if (blocks.faces()[f].surface == surface(set))
-        sum += std::abs(blocks.area(f) * direction);
-    return sum / box_volume();
+    for (unsigned int f = 0; f < pieces.faces().size(); ++f)
+      if (is_joint(f, set))
+        sum += std::abs(pieces.area(f) * direction);
+    return sum / rock_volume();
   }
 
   unsigned int RockBox::n_crossings(const unsigned int set, const SpacePoint &a,
                                     const SpacePoint &b) const
   {
-    return std::count_if(blocks.faces().begin(), blocks.faces().end(),
-                         [&](const BlockCutter::Face &face) {
-                           return face.surface == surface(set)
-                                  && crosses(blocks, face, a, b);
-                         });
+    unsigned int n = 0;
+    for (unsigned int f = 0; f < pieces.faces().size(); ++f)
+      n += is_joint(f, set) && crosses(pieces, pieces.faces()[f], a, b);
+    return n;
   }
 
   RockBox cut_rock_box(const RockBoxParameters &rock)
@@ -215,7 +411,11 @@ namespace quoin
       box.refused_area.push_back(0.);
       cut(rock, s, box);
     }
-    if (box.blocks.n_blocks() == 1)
+    box.part_of.assign(box.pieces.n_blocks(), none);
+    box.pieces.refuse_none();
+    for (const RockBody &body : rock.bodies)
+      cut(rock, body, box);
+    if (box.pieces.n_blocks() == 1)
     {
       double longest = 0.;
       for (unsigned int d = 0; d < 3; ++d)
@@ -237,22 +437,36 @@ namespace quoin
 
   std::string rock_box_report(const RockBoxParameters &rock, const RockBox &box)
   {
-    double least = box.box_volume(), most = 0.;
-    const double total = least;
-    for (unsigned int b = 0; b < box.blocks.n_blocks(); ++b)
-    {
-      least = std::min(least, box.blocks.volume(b));
-      most  = std::max(most, box.blocks.volume(b));
-    }
-    std::string text = "rock of " + std::to_string(box.blocks.n_blocks())
-                       + " blocks, volumes from " + number_text(least) + " to "
-                       + number_text(most) + " m^3, mean "
-                       + number_text(total / box.blocks.n_blocks());
+    const std::vector<double> volumes = box.block_volumes();
+    const double total                = box.rock_volume();
+    const auto [least, most]
+        = std::minmax_element(volumes.begin(), volumes.end());
+    std::string text = "rock of " + std::to_string(volumes.size())
+                       + " blocks, volumes from " + number_text(*least) + " to "
+                       + number_text(*most) + " m^3, mean "
+                       + number_text(total / volumes.size());
     for (unsigned int s = 0; s < rock.sets.size(); ++s)
       text += "\njoint set '" + rock.sets[s].name + "': "
               + std::to_string(box.planes[s].size()) + " planes, joints of "
               + number_text(box.joint_area(s)) + " m^2, "
               + number_text(box.joint_area(s) / total) + " m^2 per m^3";
+    for (const RockBody &body : rock.bodies)
+    {
+      double volume = 0.;
+      for (unsigned int b = 0; b < box.pieces.n_blocks(); ++b)
+        if (box.part_of[b] != none
+            && box.parts[box.part_of[b]].body == body.name)
+          volume += box.pieces.volume(b);
+      text += "\n" + std::string(body.is_hole ? "hole" : "body") + " '"
+              + body.name + "': " + number_text(volume) + " m^3";
+      if (!body.rounds.empty())
+        text += " in " + std::to_string(body.n_parts()) + " rounds";
+    }
+    if (!rock.bodies.empty())
+      text += "\nshortest edge of a block "
+              + number_text(BlockBorders(rock, box).shortest_edge())
+              + " m; it may limit the step of an explicit run: another "
+                "'Start' of a body or 'Origin' of a set may make it longer";
     if (box.n_refused == 0)
       return text;
     text += "\n" + std::to_string(box.n_refused)
@@ -283,7 +497,7 @@ namespace quoin
     text.precision(10);
     text << "kind,name,dip [deg],dip direction [deg],P32 asked [1/m],"
             "P32 made [1/m],P10 made [1/m],volume [m^3]\n";
-    const double total = box.box_volume();
+    const double total = box.rock_volume();
     for (unsigned int s = 0; s < rock.sets.size(); ++s)
     {
       const SpaceJointSet &set = rock.sets[s];
@@ -304,65 +518,9 @@ namespace quoin
              << direction << ",,,,\n";
       }
     }
-    for (unsigned int b = 0; b < box.blocks.n_blocks(); ++b)
-      text << "block," << b + 1 << ",,,,,," << box.blocks.volume(b) << "\n";
+    unsigned int n = 0;
+    for (const double volume : box.block_volumes())
+      text << "block," << ++n << ",,,,,," << volume << "\n";
     return text.str();
-  }
-
-  GmshGeometry rock_box_geometry(const RockBoxParameters &rock,
-                                 const RockBox &box)
-  {
-    std::ostringstream text;
-    text.precision(17);
-    text << "// Blocks of rock; x east, y north, z up [m]. Joints have no "
-            "thickness:\n// names of physical surfaces say which are joints.\n"
-            "DefineConstant[ size = {"
-         << rock.element_size << ", Name \"Element size\"} ];\n";
-    const auto &points = box.blocks.vertices();
-    for (unsigned int v = 0; v < points.size(); ++v)
-      text << "Point(" << v + 1 << ") = {" << points[v][0] << ", "
-           << points[v][1] << ", " << points[v][2] << ", size};\n";
-    std::map<std::pair<unsigned int, unsigned int>, int> lines;
-    std::map<std::string, GmshNumbers> surfaces;
-    GmshGeometry geometry;
-    for (unsigned int f = 0; f < box.blocks.faces().size(); ++f)
-    {
-      const BlockCutter::Face &face = box.blocks.faces()[f];
-      GmshNumbers loop;
-      for (std::size_t i = 0; i < face.loop.size(); ++i)
-      {
-        const unsigned int a = face.loop[i];
-        const unsigned int b = face.loop[(i + 1) % face.loop.size()];
-        const auto [line, is_new]
-            = lines.try_emplace(std::minmax(a, b), lines.size() + 1);
-        if (is_new)
-          text << "Line(" << line->second << ") = {" << std::min(a, b) + 1
-               << ", " << std::max(a, b) + 1 << "};\n";
-        loop.push_back(a < b ? line->second : -line->second);
-      }
-      text << "Curve Loop(" << f + 1 << ") = " << braces(loop)
-           << ";\nPlane Surface(" << f + 1 << ") = {" << f + 1 << "};\n";
-      surfaces[face.surface < 6 ? rock.sides[face.surface]
-                                : rock.sets[face.surface - 6].name]
-          .push_back(f + 1);
-    }
-    GmshNumbers volumes;
-    for (unsigned int b = 0; b < box.blocks.n_blocks(); ++b)
-    {
-      GmshNumbers shell;
-      for (const unsigned int f : box.blocks.faces_of(b))
-        shell.push_back(f + 1);
-      text << "Surface Loop(" << b + 1 << ") = " << braces(shell)
-           << ";\nVolume(" << b + 1 << ") = {" << b + 1 << "};\n";
-      volumes.push_back(b + 1);
-    }
-    text << "Physical Volume(\"" << rock.group << "\") = " << braces(volumes)
-         << ";\n"
-         << physical_names(surfaces, {});
-    for (const SpaceJointSet &set : rock.sets)
-      if (surfaces.count(set.name) > 0)
-        geometry.joint_curves.push_back(set.name);
-    geometry.text = text.str();
-    return geometry;
   }
 } // namespace quoin

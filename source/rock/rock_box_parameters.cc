@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace quoin
@@ -129,6 +130,34 @@ namespace quoin
           rock.smallest_block = std::pow(rock.shortest_edge, 3);
       }
     }
+
+    /** Refuses names that bodies share with other parts of the rock. */
+    void check_bodies(const ParameterSection &top,
+                      const RockBoxParameters &rock)
+    {
+      const ParameterSection section(top, "Rock bodies");
+      std::set<std::string> groups = { rock.group };
+      std::set<std::string> names(rock.sides.begin(), rock.sides.end());
+      for (const SpaceJointSet &set : rock.sets)
+        names.insert(set.name);
+      for (const RockBody &body : rock.bodies)
+      {
+        bool is_new = names.insert(body.name).second;
+        for (unsigned int i = 0; i < body.n_parts(); ++i)
+          is_new = groups.insert(body.group(i)).second && is_new;
+        if (!is_new)
+          section.fail("Names",
+                       "has '" + body.name
+                           + "', but it or one of its rounds has the name of "
+                             "the 'Group' or a side of section 'Rock box', of "
+                             "a joint set or of another body. Take another "
+                             "name.");
+        if (body.size > rock.element_size)
+          ParameterSection(section, body.name)
+              .fail("Element size", "must not exceed that of section 'Rock "
+                                    "box', which it refines.");
+      }
+    }
   } // namespace
 
   void SpaceJointSet::declare(dealii::ParameterHandler &prm)
@@ -155,7 +184,9 @@ namespace quoin
         = read_entries(ParameterSection(top, "Rock box"), enter_box);
     if (!rock.is_there())
       return rock;
-    rock.sets = read_named<SpaceJointSet>(top, "Rock joint sets");
+    rock.sets   = read_named<SpaceJointSet>(top, "Rock joint sets");
+    rock.bodies = read_named<RockBody>(top, "Rock bodies");
+    check_bodies(top, rock);
     const ParameterSection section(top, "Rock joint sets");
     for (const SpaceJointSet &set : rock.sets)
       if (std::count(rock.sides.begin(), rock.sides.end(), set.name) > 0)

@@ -63,6 +63,12 @@ namespace quoin
     BlockCutter(const dealii::Point<3> &low, const dealii::Point<3> &high,
                 double shortest_edge, double smallest_block);
 
+    /** Refuses no cuts from here on but those that leave nothing on a side. */
+    void refuse_none()
+    {
+      shortest_edge = smallest_block = 0.;
+    }
+
     /** Cuts @p block by @p plane; the new face is part of @p surface. */
     Result cut_block(unsigned int block, const JointPlane &plane,
                      unsigned int surface);

@@ -4,11 +4,13 @@
 #ifndef quoin_rock_rock_box_h
 #define quoin_rock_rock_box_h
 
+#include <quoin/base/none.h>
 #include <quoin/base/parameter_section.h>
 #include <quoin/layout/gmsh_geometry.h>
 #include <quoin/rock/block_cutter.h>
 #include <quoin/rock/distribution.h>
 #include <quoin/rock/random_stream.h>
+#include <quoin/rock/rock_body.h>
 
 #include <cstdint>
 #include <string>
@@ -37,7 +39,7 @@ namespace quoin
     dealii::Tensor<1, 3> mean_normal() const;
   };
 
-  /** The sections 'Rock box' and 'Rock joint sets'. */
+  /** The sections 'Rock box', 'Rock bodies' and 'Rock joint sets'. */
   struct RockBoxParameters
   {
     dealii::Point<3> low, high; /**< corners [m]; equal: there is no box */
@@ -49,6 +51,7 @@ namespace quoin
     double smallest_block    = 0.; /**< [m^3] */
     unsigned int most_blocks = 10000;
     double element_size      = 0.;   /**< [m] */
+    std::vector<RockBody> bodies;    /**< the earlier prevails */
     std::vector<SpaceJointSet> sets; /**< in the order of cutting */
 
     bool is_there() const
@@ -60,24 +63,59 @@ namespace quoin
     static RockBoxParameters read(const ParameterSection &top);
   };
 
-  /** A box of rock in blocks. */
+  /**
+   * A box of rock in blocks. The sets cut it into convex blocks, the surfaces
+   * of bodies cut these into convex pieces; what belongs together of them is
+   * one block.
+   */
   struct RockBox
   {
-    BlockCutter blocks;
+    /** A body, or one of its rounds. */
+    struct Part
+    {
+      std::string body;
+      std::string group;   /**< physical volume */
+      std::string surface; /**< physical surface; empty: it has no name */
+      bool is_hole, has_joints;
+      double size; /**< of elements at the surface [m] */
+    };
+
+    BlockCutter pieces;
     /** Planes of each set, from the lowest position along the mean normal. */
     std::vector<std::vector<JointPlane>> planes;
     unsigned int n_refused = 0; /**< cuts left out to keep blocks whole */
     std::vector<double> refused_area = {}; /**< of them, of each set [m^2] */
+    std::vector<Part> parts          = {};
+    /** Part that a piece is of; none: the rock mass. */
+    std::vector<unsigned int> part_of = {};
 
-    /** Surface of the faces of a set in the blocks. */
+    /** Surface of the faces of a set in the pieces. */
     static unsigned int surface(const unsigned int set)
     {
       return 6 + set;
     }
-    double box_volume() const;                 /**< [m^3] */
+    /** Surface of the faces that cuts by bodies make. */
+    static constexpr unsigned int of_bodies = none;
+
+    /** Part of a piece; null: it is rock mass, or outside of the box. */
+    const Part *part(unsigned int piece) const;
+    bool is_void(unsigned int piece) const;
+    /** Whether there are different blocks, or a block and nothing, on both
+        sides of a face of the pieces. */
+    bool is_between_blocks(unsigned int face) const;
+    /** Whether a face is a joint of @p set. */
+    bool is_joint(unsigned int face, unsigned int set) const;
+    /** The number of the block of each piece, none of voids, and of blocks.
+        With @p apart the bodies are blocks of their own also where their
+        surfaces are no joints. */
+    std::pair<std::vector<unsigned int>, unsigned int> blocks(bool apart
+                                                              = false) const;
+    std::vector<double> block_volumes() const; /**< [m^3] */
+
+    double rock_volume() const;                /**< voids are none [m^3] */
     double joint_area(unsigned int set) const; /**< [m^2] */
     /** Joints of @p set by length of a line along the unit vector
-        @p direction (P10 [1/m]): the mean of all such lines in the box. */
+        @p direction (P10 [1/m]): the mean of all such lines in the rock. */
     double joint_frequency(unsigned int set,
                            const dealii::Tensor<1, 3> &direction) const;
     /** Crossings of the line from @p a to @p b with joints of @p set. */
@@ -96,8 +134,9 @@ namespace quoin
                                    double kappa, RandomStream &random);
 
   /**
-   * Draws the planes of each set and cuts all blocks by them, set by set.
-   * Throws InputError if there are more than 'Most blocks'.
+   * Draws the planes of each set and cuts all blocks by them, set by set, then
+   * by the surfaces of bodies. Throws InputError if there are more than 'Most
+   * blocks', no joint or body cuts the rock, or a body lies outside of it.
    */
   RockBox cut_rock_box(const RockBoxParameters &rock);
 

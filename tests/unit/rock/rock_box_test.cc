@@ -69,9 +69,9 @@ TEST(RockBox, OrthogonalSetsMakeCubes)
 {
   const RockBoxParameters rock = three_orthogonal_sets();
   const RockBox box            = cut_rock_box(rock);
-  ASSERT_EQ(box.blocks.n_blocks(), 6u * 4u * 3u);
-  for (unsigned int b = 0; b < box.blocks.n_blocks(); ++b)
-    EXPECT_NEAR(box.blocks.volume(b), 1., 1e-12);
+  ASSERT_EQ(box.pieces.n_blocks(), 6u * 4u * 3u);
+  for (unsigned int b = 0; b < box.pieces.n_blocks(); ++b)
+    EXPECT_NEAR(box.pieces.volume(b), 1., 1e-12);
   EXPECT_EQ(box.n_refused, 0u);
   EXPECT_NEAR(box.joint_area(0), 5. * 4. * 3., 1e-10);
   EXPECT_NEAR(box.joint_area(1), 3. * 6. * 3., 1e-10);
@@ -105,7 +105,7 @@ TEST(RockBox, ScanlineAtAnAngleMeetsFewerJoints)
             static_cast<unsigned int>(100 * 0.6 / 0.5));
   const dealii::Tensor<1, 3> direction = b - a;
   EXPECT_NEAR(box.joint_frequency(0, direction / direction.norm()),
-              box.joint_area(0) / box.box_volume() * 0.6, 1e-12);
+              box.joint_area(0) / box.rock_volume() * 0.6, 1e-12);
 }
 
 TEST(RockBox, VolumesSumUpAndFacesCloseBlocks)
@@ -116,14 +116,14 @@ TEST(RockBox, VolumesSumUpAndFacesCloseBlocks)
     rock.seed              = seed;
     rock.shortest_edge     = seed % 2 == 0 ? 0.1 : 0.;
     const RockBox box      = cut_rock_box(rock);
-    EXPECT_GT(box.blocks.n_blocks(), 20u);
-    EXPECT_NEAR(box.box_volume(), 1000., 1e-9);
-    for (unsigned int b = 0; b < box.blocks.n_blocks(); ++b)
+    EXPECT_GT(box.pieces.n_blocks(), 20u);
+    EXPECT_NEAR(box.rock_volume(), 1000., 1e-9);
+    for (unsigned int b = 0; b < box.pieces.n_blocks(); ++b)
     {
       std::map<std::pair<unsigned int, unsigned int>, int> edges;
-      for (const unsigned int f : box.blocks.faces_of(b))
+      for (const unsigned int f : box.pieces.faces_of(b))
       {
-        const auto &face = box.blocks.faces()[f];
+        const auto &face = box.pieces.faces()[f];
         for (std::size_t i = 0; i < face.loop.size(); ++i)
         {
           unsigned int u = face.loop[i];
@@ -139,8 +139,8 @@ TEST(RockBox, VolumesSumUpAndFacesCloseBlocks)
         ASSERT_EQ(edges.count({ edge.second, edge.first }), 1u);
       }
     }
-    const auto &x = box.blocks.vertices();
-    for (const auto &face : box.blocks.faces())
+    const auto &x = box.pieces.vertices();
+    for (const auto &face : box.pieces.faces())
       for (std::size_t i = 0; i < face.loop.size(); ++i)
       {
         const unsigned int v = face.loop[(i + 1) % face.loop.size()];
@@ -191,17 +191,17 @@ TEST(RockBox, TwoPlanesMeetInTheLineOfTheWedge)
   rock.sets         = { space_set("a", 40, 130, "100", centre),
                         space_set("b", 60, 220, "100", centre) };
   const RockBox box = cut_rock_box(rock);
-  ASSERT_EQ(box.blocks.n_blocks(), 4u);
+  ASSERT_EQ(box.pieces.n_blocks(), 4u);
   const double degree = std::acos(-1.) / 180.;
   const double plunge = std::atan(
       1.
       / std::hypot(1. / std::tan(40. * degree), 1. / std::tan(60. * degree)));
   double found = 0.;
-  for (const auto &face : box.blocks.faces())
+  for (const auto &face : box.pieces.faces())
     if (face.surface == RockBox::surface(0))
       for (std::size_t i = 0; i < face.loop.size(); ++i)
       {
-        const auto &x       = box.blocks.vertices();
+        const auto &x       = box.pieces.vertices();
         const SpacePoint &p = x[face.loop[i]];
         const SpacePoint &q = x[face.loop[(i + 1) % face.loop.size()]];
         const auto normal   = rock.sets[1].mean_normal();
@@ -245,7 +245,7 @@ TEST(RockBox, MeshesIntoBlocksWithTheJointsOfItsFaces)
     EXPECT_NEAR(volume, size[0] * size[1] * size[2], 1e-8);
     BlockMesh<3> blocks;
     split_into_blocks(mesh, options, blocks);
-    EXPECT_EQ(blocks.n_blocks(), box.blocks.n_blocks());
+    EXPECT_EQ(blocks.n_blocks(), box.pieces.n_blocks());
   }
 }
 
