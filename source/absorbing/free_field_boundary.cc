@@ -383,7 +383,7 @@ namespace quoin
     }
     for (unsigned int i = 0; i < pull.size(); ++i)
       move_with_dashpot(step, captured[this->captured_positions[i]], damping[i],
-                        pull[i], state);
+                        pull[i], this, state);
   }
 
   template <int dim>

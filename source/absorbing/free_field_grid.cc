@@ -346,14 +346,19 @@ namespace quoin
       Vector after
           = ((1. - a) * before + step.dt_velocity / node_mass[i] * force[i])
             / (1. + a);
-      const auto held = dashpots.find(i);
-      if (held != dashpots.end())
-        after = velocity_with_dashpot<3>(step, node_mass[i], before,
-                                         held->second.damping, force[i]);
+      std::array<bool, 3> prescribed{};
       if (supports.count(i))
         for (unsigned int d = 0; d < 3; ++d)
           if (driver.prescribes(d))
-            after[d] = driver.velocity(d, step);
+          {
+            prescribed[d] = true;
+            after[d]      = driver.velocity(d, step);
+          }
+      const auto held = dashpots.find(i);
+      if (held != dashpots.end())
+        after = velocity_with_dashpot<3>(step, node_mass[i], before,
+                                         held->second.damping, force[i],
+                                         prescribed, after);
       mean_velocity[i] = 0.5 * (before + after);
       set_vector<3>(v, i, after);
       for (unsigned int d = 0; d < 3; ++d)

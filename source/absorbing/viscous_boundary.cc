@@ -172,28 +172,55 @@ namespace quoin
   velocity_with_dashpot(const StepContext &step, const double m,
                         const dealii::Tensor<1, dim> &velocity,
                         const typename Dashpot<dim>::Damping &damping,
-                        const dealii::Tensor<1, dim> &force)
+                        const dealii::Tensor<1, dim> &force,
+                        const std::array<bool, dim> &prescribed,
+                        dealii::Tensor<1, dim> after)
   {
     const double h  = 0.5 * step.dt_velocity;
     const double a  = h * step.mass_damping * m;
     const auto drag = product<dim>(damping, velocity);
-    const auto b    = (m - a) * velocity - h * drag + 2. * h * force;
+    auto b          = (m - a) * velocity - h * drag + 2. * h * force;
     auto matrix     = damping;
     for (unsigned int k = 0; k < matrix.size(); ++k)
       matrix[k] = h * damping[k] + (k < dim ? m + a : 0.);
-    return solve(matrix, b);
+    // Known velocities drag the free components and are no unknowns.
+    unsigned int k = dim;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int e = d + 1; e < dim; ++e, ++k)
+      {
+        if (!prescribed[d] && !prescribed[e])
+          continue;
+        if (!prescribed[d])
+          b[d] -= matrix[k] * after[e];
+        if (!prescribed[e])
+          b[e] -= matrix[k] * after[d];
+        matrix[k] = 0.;
+      }
+    const auto solved = solve(matrix, b);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!prescribed[d])
+        after[d] = solved[d];
+    return after;
   }
 
   template <int dim>
   void move_with_dashpot(const StepContext &step,
                          const CapturedNode<dim> &before,
                          const typename Dashpot<dim>::Damping &damping,
-                         const dealii::Tensor<1, dim> &pull, State<dim> &state)
+                         const dealii::Tensor<1, dim> &pull,
+                         const MotionConstraint<dim> *owner, State<dim> &state)
   {
+    std::array<bool, dim> prescribed;
+    for (unsigned int d = 0; d < dim; ++d)
+      prescribed[d] = before.owner[d] != owner;
     dealii::Tensor<1, dim> &after = state.velocity[before.node];
     after = velocity_with_dashpot<dim>(step, before.mass, before.velocity,
-                                       damping, before.force + pull);
-    state.nodes[before.node].u = before.displacement + step.dt * after;
+                                       damping, before.force + pull, prescribed,
+                                       after);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!prescribed[d])
+        state.nodes[before.node].u[d]
+            = before.displacement[d] + step.dt * after[d];
   }
 
   template <int dim>
@@ -316,7 +343,7 @@ namespace quoin
     find_pulls(step.begin, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       move_with_dashpot(step, captured[this->captured_positions[i]],
-                        dashpots[i].damping, pull[i], state);
+                        dashpots[i].damping, pull[i], this, state);
   }
 
   template <int dim>
@@ -339,12 +366,14 @@ namespace quoin
                              const std::vector<Impedance> &, const Thickness &,
                              const std::vector<unsigned int> &,
                              std::vector<Dashpot<2>> &);
-  template dealii::Tensor<1, 2> velocity_with_dashpot(
+  template dealii::Tensor<1, 2> velocity_with_dashpot<2>(
       const StepContext &, double, const dealii::Tensor<1, 2> &,
-      const Dashpot<2>::Damping &, const dealii::Tensor<1, 2> &);
+      const Dashpot<2>::Damping &, const dealii::Tensor<1, 2> &,
+      const std::array<bool, 2> &, dealii::Tensor<1, 2>);
   template void move_with_dashpot(const StepContext &, const CapturedNode<2> &,
                                   const Dashpot<2>::Damping &,
-                                  const dealii::Tensor<1, 2> &, State<2> &);
+                                  const dealii::Tensor<1, 2> &,
+                                  const MotionConstraint<2> *, State<2> &);
   template void
   account_for_dashpot(const StepContext &, const CapturedNode<2> &,
                       const Dashpot<2>::Damping &, const dealii::Tensor<1, 2> &,
@@ -356,12 +385,14 @@ namespace quoin
                              const std::vector<Impedance> &, const Thickness &,
                              const std::vector<unsigned int> &,
                              std::vector<Dashpot<3>> &);
-  template dealii::Tensor<1, 3> velocity_with_dashpot(
+  template dealii::Tensor<1, 3> velocity_with_dashpot<3>(
       const StepContext &, double, const dealii::Tensor<1, 3> &,
-      const Dashpot<3>::Damping &, const dealii::Tensor<1, 3> &);
+      const Dashpot<3>::Damping &, const dealii::Tensor<1, 3> &,
+      const std::array<bool, 3> &, dealii::Tensor<1, 3>);
   template void move_with_dashpot(const StepContext &, const CapturedNode<3> &,
                                   const Dashpot<3>::Damping &,
-                                  const dealii::Tensor<1, 3> &, State<3> &);
+                                  const dealii::Tensor<1, 3> &,
+                                  const MotionConstraint<3> *, State<3> &);
   template void
   account_for_dashpot(const StepContext &, const CapturedNode<3> &,
                       const Dashpot<3>::Damping &, const dealii::Tensor<1, 3> &,

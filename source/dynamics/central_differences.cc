@@ -369,11 +369,14 @@ namespace quoin
         state.nodes[node.node].u[d]  = node.displacement[d] + context.dt * v1;
       }
     clock.lap(phases.loads);
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      constraints[i]->correct(context, captured, state);
-      clock.lap(constraint_phases[i]);
-    }
+    // Dashpots need the velocities that are prescribed.
+    for (const bool absorbs : { false, true })
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        if ((constraints[i]->traits().kind == MotionKind::absorbing) == absorbs)
+        {
+          constraints[i]->correct(context, captured, state);
+          clock.lap(constraint_phases[i]);
+        }
     heavy.move(context, captured, state);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {

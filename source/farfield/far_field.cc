@@ -365,8 +365,7 @@ namespace quoin
     {
       const dealii::Tensor<1, 2> v1
           = free_velocity(k) - gain[k] * thickness * transfer.force(k, p);
-      state.velocity[node(k).node] = v1;
-      state.nodes[node(k).node].u  = node(k).displacement + step.dt * v1;
+      move_own(step, node(k), v1, state);
     }
   }
 

@@ -177,8 +177,7 @@ namespace quoin
                                          - thickness * transfer.force(k, p);
       const dealii::Tensor<1, 2> v1
           = ((1. - a) * node(k).velocity + gain[k] * total) / (1. + a);
-      state.velocity[node(k).node] = v1;
-      state.nodes[node(k).node].u  = node(k).displacement + step.dt * v1;
+      move_own(step, node(k), v1, state);
     }
   }
 

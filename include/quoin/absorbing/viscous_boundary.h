@@ -82,23 +82,29 @@ namespace quoin
    * Velocity after a step [m/s] of a @p mass [kg] with @p velocity before it
    * under @p force [N], the damping of the step and the drag @p damping [N s/m]
    * on the mean velocity: (m + h c) v+ = (m - h c) v- + 2 h f, h half the step.
+   * Components that are @p prescribed have the velocity @p after, by which they
+   * drag the others along.
    */
   template <int dim>
   dealii::Tensor<1, dim>
   velocity_with_dashpot(const StepContext &step, double mass,
                         const dealii::Tensor<1, dim> &velocity,
                         const typename Dashpot<dim>::Damping &damping,
-                        const dealii::Tensor<1, dim> &force);
+                        const dealii::Tensor<1, dim> &force,
+                        const std::array<bool, dim> &prescribed,
+                        dealii::Tensor<1, dim> after);
 
   /**
-   * Moves a node by its force, the force @p pull [N] and the drag @p damping [N
-   * s/m], see velocity_with_dashpot().
+   * Moves the components of a node that @p owner moves by its force, the force
+   * @p pull [N] and the drag @p damping [N s/m], see velocity_with_dashpot().
+   * The others have moved already.
    */
   template <int dim>
   void move_with_dashpot(const StepContext &step,
                          const CapturedNode<dim> &before,
                          const typename Dashpot<dim>::Damping &damping,
-                         const dealii::Tensor<1, dim> &pull, State<dim> &state);
+                         const dealii::Tensor<1, dim> &pull,
+                         const MotionConstraint<dim> *owner, State<dim> &state);
 
   /**
    * Books the work of move_with_dashpot() for the components that @p owner

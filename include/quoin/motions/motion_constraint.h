@@ -53,9 +53,11 @@ namespace quoin
   }
 
   /**
-   * How a constraint moves its nodes. Constraints act in this order: prescribed
-   * motion prevails over dashpots, a rigid body over both, because it moves all
-   * of its nodes.
+   * How a constraint moves its nodes. Where several have a node, the last kind
+   * prevails: prescribed motion over dashpots, a rigid body over both, because
+   * it moves all of its nodes. In a step those that absorb act last, on the
+   * components that are theirs: their dashpots need the velocities of the
+   * others.
    */
   enum class MotionKind
   {
@@ -115,7 +117,8 @@ namespace quoin
   /**
    * Prescribes or modifies the motion of nodes. The solver advances all nodes
    * as if free; then correct() overwrites velocity and displacement of the
-   * constrained ones, and account() books the work done.
+   * constrained ones, or, if it absorbs, of their components that it owns, and
+   * account() books the work done.
    */
   template <int dim>
   class MotionConstraint
@@ -231,6 +234,20 @@ namespace quoin
     }
 
   protected:
+    /** Moves the components of a node that it owns by @p velocity [m/s]. */
+    void move_own(const StepContext &step, const CapturedNode<dim> &before,
+                  const dealii::Tensor<1, dim> &velocity,
+                  State<dim> &state) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (before.owner[d] == this)
+        {
+          state.velocity[before.node][d] = velocity[d];
+          state.nodes[before.node].u[d]
+              = before.displacement[d] + step.dt * velocity[d];
+        }
+    }
+
     ConstraintTraits own_traits;
     std::string load_name;
     std::vector<unsigned int> node_list;

@@ -232,6 +232,28 @@ TEST(FreeField, RefusesWhatIsNoBase)
   EXPECT_NE(message.find("'base'"), std::string::npos) << message;
 }
 
+TEST(ViscousBoundary, BalancesItsEnergyBesideRollersOnAnInclinedBase)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  for (auto &vertex : mesh.vertices)
+    vertex[1] += 0.5 * vertex[0];
+  TestRun run(mesh, plane_strain(),
+              { viscous("base", "bottom"),
+                motion("rollers", "sides", "1e-9*sin(800*t)", "") });
+  run.throw_at_random(1e-9);
+  account_for_initial_motion(run.model, run.state);
+  run.begin(stage_with({ "base", "rollers" }));
+  double largest = 0.;
+  for (unsigned int i = 0; i < 300; ++i)
+  {
+    run.solver.step(run.state, { true, false });
+    largest = std::max(largest, std::abs(run.solver.energies().residual()));
+  }
+  EXPECT_LT(largest, 1e-11 * run.solver.energies().throughput());
+  EXPECT_GT(run.solver.energies().viscous, 0.);
+}
+
 TEST(ViscousBoundary, OfAnotherMaterialBeyond)
 {
   // Thrown down at v on ground of three times its impedance, the base slows
