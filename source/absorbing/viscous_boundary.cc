@@ -285,6 +285,10 @@ namespace quoin
   ViscousBoundary<dim>::~ViscousBoundary() = default;
 
   template <int dim>
+  ViscousBoundary<dim> &ViscousBoundary<dim>::operator=(ViscousBoundary &&)
+      = default;
+
+  template <int dim>
   void ViscousBoundary<dim>::prepare(State<dim> &state) const
   {
     state.template add<ViscousBoundaryState<dim>>(this->load_name);

@@ -320,9 +320,10 @@ namespace quoin
     if (index == 0)
       return;
     construction->resume_stage(index - 1, state);
+    const StageParameters &previous = *previous_stage(parameters.stages, index);
+    solver->loads().follow_materials(*model, previous, nullptr);
     if (explicit_solver)
-      explicit_solver->restore_masses(*previous_stage(parameters.stages, index),
-                                      state);
+      explicit_solver->restore_masses(previous, state);
   }
 
   template <int dim>

@@ -320,7 +320,7 @@ namespace quoin
                                         const StageParameters *previous,
                                         State<dim> &state)
   {
-    this->activate(new_stage, state);
+    this->activate(new_stage, previous, state);
     prepare(state);
     if constexpr (dim == 2)
       if (all.water)
@@ -356,7 +356,7 @@ namespace quoin
                                          const StageParameters *previous,
                                          State<dim> &state)
   {
-    this->activate(resumed, state);
+    this->activate(resumed, nullptr, state);
     if constexpr (dim == 2)
       if (all.water)
         all.water->resume_stage(state);

@@ -40,6 +40,7 @@ namespace quoin
 
   template <int dim>
   void Solver<dim>::activate(const StageParameters &new_stage,
+                             const StageParameters *previous,
                              const State<dim> &state)
   {
     stage = new_stage;
@@ -51,6 +52,7 @@ namespace quoin
           = all.far.elastostatic && all.acts_in(*all.far.elastostatic, stage);
     }
     all.check(stage);
+    all.follow_materials(model, stage, previous);
     acting.constraints.clear();
     for (const auto &constraint : all.constraints)
       if (all.acts_in(*constraint, stage))

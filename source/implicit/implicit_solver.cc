@@ -168,7 +168,7 @@ namespace quoin
                                         const StageParameters *previous,
                                         State<dim> &state)
   {
-    this->activate(new_stage, state);
+    this->activate(new_stage, previous, state);
     this->ramp_loads(previous, 0.);
     prepare(state);
     if constexpr (dim == 2)
@@ -203,7 +203,7 @@ namespace quoin
                                          const StageParameters *previous,
                                          State<dim> &state)
   {
-    this->activate(resumed, state);
+    this->activate(resumed, nullptr, state);
     if constexpr (dim == 2)
     {
       if (all.water)

@@ -5,7 +5,6 @@
 #include <quoin/base/nearest_name.h>
 #include <quoin/base/number_text.h>
 #include <quoin/loading/run_loads.h>
-#include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/loads/joint_crack.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/motions/space_platen.h>
@@ -112,6 +111,47 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** Whether @p group is of the same ground in @p a and @p b. */
+    bool is_same(const FreeFieldGround &a, const FreeFieldGround &b,
+                 const unsigned int group)
+    {
+      const LinearElastic &one   = a.materials[group],
+                          &other = b.materials[group];
+      return one.density == other.density && one.young == other.young
+             && one.poisson == other.poisson
+             && a.yields[group] == b.yields[group];
+    }
+
+    bool is_same(const FreeFieldGround &a, const FreeFieldGround &b)
+    {
+      for (unsigned int group = 0; group < a.materials.size(); ++group)
+        if (!is_same(a, b, group))
+          return false;
+      return true;
+    }
+
+    template <int dim>
+    std::unique_ptr<ViscousBoundary<dim>>
+    viscous_boundary(const Model<dim> &model, const LoadParameters &load)
+    {
+      return std::make_unique<ViscousBoundary<dim>>(
+          load, model.nodes(), impedance_beyond(model, load),
+          model.thickness());
+    }
+
+    template <int dim>
+    std::unique_ptr<FreeFieldBoundary<dim>>
+    free_field(const Model<dim> &model, const LoadParameters &load,
+               const LoadParameters &base)
+    {
+      return std::make_unique<FreeFieldBoundary<dim>>(
+          load, model.nodes(), free_field_ground(model),
+          FreeFieldBase{ base, impedance_beyond(model, base) });
+    }
+  } // namespace
+
   template <int dim>
   RunLoads<dim>::RunLoads(const Model<dim> &model,
                           const std::vector<LoadParameters> &loads,
@@ -131,8 +171,7 @@ namespace quoin
       switch (load.type)
       {
       case LoadType::viscous_boundary:
-        constraints.push_back(std::make_unique<ViscousBoundary<dim>>(
-            load, nodes, impedance_beyond(model, load), model.thickness()));
+        add_open_boundary(model, load);
         break;
       case LoadType::prescribed_motion:
         constraints.push_back(
@@ -173,6 +212,71 @@ namespace quoin
   }
 
   template <int dim>
+  void
+  RunLoads<dim>::add_open_boundary(const Model<dim> &model,
+                                   const LoadParameters &load,
+                                   const std::optional<LoadParameters> &base)
+  {
+    open_boundaries.push_back(
+        { load, base, constraints.size(), free_field_ground(model) });
+    if (base)
+      constraints.push_back(free_field(model, load, *base));
+    else
+      constraints.push_back(viscous_boundary(model, load));
+  }
+
+  template <int dim>
+  void RunLoads<dim>::follow_materials(const Model<dim> &model,
+                                       const StageParameters &stage,
+                                       const StageParameters *previous)
+  {
+    const FreeFieldGround now = free_field_ground(model);
+    for (OpenBoundary &each : open_boundaries)
+    {
+      MotionConstraint<dim> &constraint = *constraints[each.position];
+      if (!acts_in(constraint, stage) || is_same(now, each.ground))
+        continue;
+      if (each.base && previous && acts_in(constraint, *previous))
+        refuse_moved_ground(model, each, now, stage);
+      try
+      {
+        if (each.base)
+          static_cast<FreeFieldBoundary<dim> &>(constraint)
+              = std::move(*free_field(model, each.load, *each.base));
+        else
+          static_cast<ViscousBoundary<dim> &>(constraint)
+              = std::move(*viscous_boundary(model, each.load));
+      }
+      catch (const InputError &error)
+      {
+        throw InputError("section 'Stages/" + stage.name
+                         + "': with the materials of this stage, "
+                         + error.what());
+      }
+      each.ground = now;
+    }
+  }
+
+  template <int dim>
+  void RunLoads<dim>::refuse_moved_ground(const Model<dim> &model,
+                                          const OpenBoundary &field,
+                                          const FreeFieldGround &now,
+                                          const StageParameters &stage) const
+  {
+    for (const BoundaryFace<dim> &face :
+         faces_of_curves(model.nodes(), field.load.boundaries, field.load.name))
+      if (!is_same(now, field.ground, face.group))
+        throw InputError(
+            "section 'Stages/" + stage.name + "': 'Materials' changes '"
+            + model.nodes().table().group_names[face.group]
+            + "' along the boundary of the load '" + field.load.name
+            + "', while the ground beside it moves with the former material. "
+              "Change it in the stage in which the load begins, and hold the "
+              "side by a prescribed motion until then: the load keeps its "
+              "reactions.");
+  }
+
+  template <int dim>
   void RunLoads<dim>::add_free_fields(const Model<dim> &model,
                                       const std::vector<LoadParameters> &loads)
   {
@@ -206,9 +310,7 @@ namespace quoin
                            "free fields rise vertically. Take it out, or let a "
                            "'viscous boundary' all around the model pass the "
                            "wave.");
-      constraints.push_back(std::make_unique<FreeFieldBoundary<dim>>(
-          load, model.nodes(), free_field_ground(model),
-          FreeFieldBase{ *base, impedance_beyond(model, *base) }));
+      add_open_boundary(model, load, *base);
       fields.push_back(constraints.back().get());
     }
     if (dim == 3)

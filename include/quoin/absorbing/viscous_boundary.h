@@ -169,6 +169,7 @@ namespace quoin
                     const std::vector<Impedance> &impedance,
                     const Thickness &thickness);
     ~ViscousBoundary() override;
+    ViscousBoundary &operator=(ViscousBoundary &&);
 
     void prepare(State<dim> &state) const override;
     void begin_stage(State<dim> &state, bool continues) override;

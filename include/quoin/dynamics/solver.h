@@ -130,11 +130,14 @@ namespace quoin
 
   protected:
     /**
-     * Switches to the loads of @p stage. Throws an InputError about unknown
-     * loads, bodies without support in a static stage, or loads on blocks that
-     * are absent in @p state.
+     * Switches to the loads of @p stage, which begins after @p previous; null:
+     * there is none, or the stage has begun already. Throws an InputError about
+     * unknown loads, bodies without support in a static stage, loads on blocks
+     * that are absent in @p state, or boundaries that cannot follow the
+     * materials of now.
      */
-    void activate(const StageParameters &stage, const State<dim> &state);
+    void activate(const StageParameters &stage, const StageParameters *previous,
+                  const State<dim> &state);
     /** Lets gravity that the stage names and @p previous, the stage before or
         null, does not grow over @p automatic [s], unless its parameters say
         otherwise, and with it pressures in joints and, in a stage that ends at

@@ -4,6 +4,7 @@
 #ifndef quoin_loading_run_loads_h
 #define quoin_loading_run_loads_h
 
+#include <quoin/absorbing/free_field_boundary.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/loading/load_pattern.h>
@@ -16,6 +17,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +63,15 @@ namespace quoin
     std::vector<std::string>
     loads_that_hold(const StageParameters &stage,
                     const StageParameters &previous) const;
+    /**
+     * Gives the viscous and free-field boundaries that act in @p stage the
+     * materials that @p model has now. Throws an InputError about what they
+     * cannot follow: ground beside a model that would change while it moves,
+     * as the free field acts in @p previous, the stage before or null, too.
+     * Collective.
+     */
+    void follow_materials(const Model<dim> &model, const StageParameters &stage,
+                          const StageParameters *previous);
     /** Whether @p load adds the mass of water, so that it has a resultant. */
     bool has_added_mass(const std::string &load) const;
     /** Throws an InputError about loads that @p stage names wrongly. */
@@ -81,6 +92,20 @@ namespace quoin
     std::map<std::string, std::vector<DisplacementTerm>> controls;
 
   private:
+    /** A boundary that continues the blocks with their materials. */
+    struct OpenBoundary
+    {
+      LoadParameters load;
+      std::optional<LoadParameters> base; /**< of a free field */
+      std::size_t position;               /**< in the list of constraints */
+      FreeFieldGround ground;             /**< what it is made for */
+    };
+
+    void add_open_boundary(const Model<dim> &model, const LoadParameters &load,
+                           const std::optional<LoadParameters> &base = {});
+    void refuse_moved_ground(const Model<dim> &model, const OpenBoundary &field,
+                             const FreeFieldGround &now,
+                             const StageParameters &stage) const;
     void add_free_fields(const Model<dim> &model,
                          const std::vector<LoadParameters> &loads);
     void add_far_fields(std::unique_ptr<FarField> far_field,
@@ -88,6 +113,7 @@ namespace quoin
 
     std::vector<std::string> names;
     std::vector<std::string> with_added_mass;
+    std::vector<OpenBoundary> open_boundaries;
   };
 
   // Members that exist in two dimensions only.

@@ -61,6 +61,28 @@ namespace
     return parameters;
   }
 
+  /** What a stage changes: the stiffness of all materials by @p factor. */
+  void change_stiffness(TestRun &run, const double factor,
+                        const bool yields = false)
+  {
+    ModelProperties properties = run.model.properties();
+    for (MaterialParameters &each : properties.materials)
+    {
+      each.elastic.young *= factor;
+      if (yields)
+        each.strength = MohrCoulombStrength{ 1e9, 0., 0. };
+    }
+    run.model.set_properties(properties, run.state.get<ConstructionState<2>>());
+  }
+
+  StageParameters named_stage(const std::string &name,
+                              const std::vector<std::string> &loads)
+  {
+    StageParameters stage = stage_with(loads);
+    stage.name            = name;
+    return stage;
+  }
+
   void expect_refused(const std::vector<LoadParameters> &loads,
                       const std::vector<std::string> &words,
                       const ModelParameters &parameters = plane_strain())
@@ -101,6 +123,66 @@ TEST(FreeField, VerticalWavesPassAsIfTheModelWereEndless)
   }
   EXPECT_NEAR(peak, 4e-9, 0.1e-9);
   EXPECT_LT(scatter, 0.02 * peak);
+}
+
+TEST(FreeField, StandsOnTheMaterialsOfItsStage)
+{
+  BlockMesh<2> mesh;
+  make_sides(mesh, 6, 10);
+  const std::string pulse = "*(1-cos(2*pi*t/0.012))*if(t<0.012,1,0)";
+  TestRun run(mesh, plane_strain(),
+              { incident("1e-9" + pulse, "1e-9" + pulse),
+                free_field("left", "left"), free_field("right", "right"),
+                motion("rollers", "bottom", "0", "0") });
+  const StageParameters first = named_stage("first", { "rollers" });
+  const StageParameters second
+      = named_stage("second", { "base", "left", "right" });
+  run.begin(first);
+  run.step(3);
+  change_stiffness(run, 2.);
+  run.begin(second, 0.8, &first);
+  double peak = 0., scatter = 0.;
+  const auto steps = static_cast<unsigned int>(0.03 / run.dt());
+  for (unsigned int i = 0; i < steps; ++i)
+  {
+    run.step(1);
+    const dealii::Tensor<1, 2> &mean = run.state.velocity[run.node(3., 20.)];
+    for (const unsigned int n : run.nodes_at_height(20.))
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        peak = std::max(peak, std::abs(mean[d]));
+        scatter
+            = std::max(scatter, std::abs(run.state.velocity[n][d] - mean[d]));
+      }
+  }
+  EXPECT_NEAR(peak, 4e-9, 0.1e-9);
+  EXPECT_LT(scatter, 0.02 * peak);
+}
+
+TEST(FreeField, RefusesMaterialsThatItCannotFollow)
+{
+  BlockMesh<2> mesh;
+  make_sides(mesh, 2, 2);
+  const StageParameters first = named_stage("first", { "base", "left" });
+  const StageParameters rest  = named_stage("rest", { "base" });
+  const StageParameters last  = named_stage("last", { "base", "left" });
+  for (const bool yields : { false, true })
+  {
+    TestRun run(mesh, plane_strain(),
+                { incident("0", "0"), free_field("left", "left") });
+    const StageParameters &before = yields ? rest : first;
+    run.begin(before);
+    run.step(1);
+    change_stiffness(run, 2., yields);
+    const std::string message
+        = message_of<InputError>([&] { run.begin(last, 0.8, &before); });
+    for (const std::string &word :
+         yields ? std::vector<std::string>{ "'Stages/last'", "'Loads/left'",
+                                            "'Mohr-Coulomb'" }
+                : std::vector<std::string>{ "'Stages/last'", "'Materials'",
+                                            "'lower'", "'left'" })
+      EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
 }
 
 TEST(FreeField, BalancesItsEnergy)
@@ -288,6 +370,28 @@ TEST(ViscousBoundary, OfAnotherMaterialBeyond)
          { "'Loads/base'", "'Far field material", "lower, upper, hard" })
       EXPECT_NE(message.find(word), std::string::npos) << message;
   }
+}
+
+TEST(ViscousBoundary, HasTheMaterialsOfItsStage)
+{
+  // Thrown down at v on ground of its own impedance, the base slows down to
+  // v / 2 until a wave comes back.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 30);
+  TestRun run(
+      mesh, plane_strain(),
+      { viscous("base", "bottom"), motion("rollers", "sides", "0", "") });
+  const StageParameters first = named_stage("first", { "base", "rollers" });
+  run.begin(first);
+  run.step(3);
+  change_stiffness(run, 9.);
+  run.begin(named_stage("second", { "base", "rollers" }), 0.8, &first);
+  for (dealii::Tensor<1, 2> &node : run.state.velocity)
+    node[1] = -1e-9;
+  const double c = 3. * std::sqrt(1e10 * 0.8 / (1.2 * 0.6) / 2500.);
+  run.step(static_cast<unsigned int>(40. / c / run.dt()));
+  for (const unsigned int n : run.nodes_at_height(0.))
+    EXPECT_NEAR(run.state.velocity[n][1], -0.5e-9, 0.02e-9);
 }
 
 TEST(InitialMotion, BringsItsEnergyAndIsOfSecondOrder)
