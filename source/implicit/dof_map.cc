@@ -34,6 +34,17 @@ namespace quoin
       return integral(function, a, middle, depth - 1)
              + integral(function, middle, b, depth - 1);
     }
+
+    /** Largest component of the @p arms [m]. */
+    template <int dim>
+    double largest_component(const std::vector<dealii::Tensor<1, dim>> &arms)
+    {
+      double largest = 0.;
+      for (const dealii::Tensor<1, dim> &arm : arms)
+        for (unsigned int d = 0; d < dim; ++d)
+          largest = std::max(largest, std::abs(arm[d]));
+      return largest;
+    }
   } // namespace
 
   template <int dim>
@@ -120,6 +131,9 @@ namespace quoin
       body.centre = now.centre;
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
         body.arms.push_back(vector_at<dim>(now.arms, i));
+      // The rank that counts a platen may have none of its nodes.
+      body.reach = dealii::Utilities::MPI::max(largest_component(body.arms),
+                                               communicator);
       body_list.push_back(body);
     }
     n_platens = body_list.size();
@@ -146,6 +160,7 @@ namespace quoin
         body.nodes.push_back(i);
         body.arms.push_back(X - block.centre);
       }
+      body.reach = largest_component(body.arms);
       body_list.push_back(body);
     }
   }

@@ -550,15 +550,11 @@ namespace quoin
       const RigidBody<dim> &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
-      double size = 0.;
-      for (const dealii::Tensor<1, dim> &arm : body.arms)
-        for (unsigned int d = 0; d < dim; ++d)
-          size = std::max(size, std::abs(arm[d]));
       for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
-        if (!body.given[d] && (d < dim || size > 0.))
+        if (!body.given[d] && (d < dim || body.reach > 0.))
           sums[0] += std::abs(bodies[b][d] + balance.drives[b][d]
                               + balance.held[b][d])
-                     / (d >= dim ? size : 1.);
+                     / (d >= dim ? body.reach : 1.);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     // Corrections by a matrix that is singular may not be numbers.

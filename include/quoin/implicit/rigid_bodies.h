@@ -30,6 +30,8 @@ namespace quoin
     std::vector<unsigned int> nodes;                  /**< owned ones */
     std::vector<dealii::Tensor<1, dim>> arms;         /**< unrotated [m] */
     std::vector<dealii::Tensor<1, dim>> present_arms; /**< rotated [m] */
+    /** Largest component of an unrotated arm, of those of all ranks [m]. */
+    double reach = 0.;
     bool counts; /**< whether this rank books its work and equations */
   };
 

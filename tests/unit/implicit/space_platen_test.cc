@@ -39,8 +39,9 @@ namespace
     State<3> state;
 
     explicit Bar(const std::vector<LoadParameters> &loads,
-                 const ImplicitParameters &numbers)
-      : blocks(made()), nodes(blocks), model(nodes, rock()),
+                 const ImplicitParameters &numbers,
+                 const MPI_Comm communicator = MPI_COMM_SELF)
+      : blocks(made(communicator)), nodes(blocks), model(nodes, rock()),
         solver(model, loads, numbers, {}), state(model.initial_state())
     {
       solver.begin_stage(stage_with({ "foot", "head" }), nullptr, state);
@@ -48,13 +49,22 @@ namespace
         solver.step(state);
     }
 
-    static BlockTriangulation<3> made()
+    /** Its upper half is that of the last rank, the lower one of the first. */
+    static BlockTriangulation<3> made(const MPI_Comm communicator)
     {
       BlockMesh<3> mesh = box_mesh({ 2, 2, 8 }, 0.5);
-      return { mesh,
-               std::vector<unsigned int>(mesh.n_cells(), 0),
-               { false },
-               MPI_COMM_SELF };
+      std::vector<unsigned int> rank_of_cell;
+      for (const auto &cell : mesh.cells)
+      {
+        double height = 0.;
+        for (const unsigned int vertex : cell)
+          height += 0.25 * mesh.vertices[vertex][2];
+        rank_of_cell.push_back(
+            height < 2.
+                ? 0
+                : dealii::Utilities::MPI::n_mpi_processes(communicator) - 1);
+      }
+      return { mesh, rank_of_cell, { false }, communicator };
     }
 
     static ModelParameters rock()
@@ -128,6 +138,38 @@ TEST(SpacePlatens, IterationsConvergeQuadraticallyToEquilibrium)
                 .norm(),
             1e-5 * 3e7);
   EXPECT_NEAR(bar.moment(1)[1], 2e7, 1.);
+}
+
+// A moment bends the bar, and counts in the unbalanced force, whichever rank
+// has the nodes of the head.
+TEST(PlatensOfRanks, AMomentCountsWhereverTheNodesAre)
+{
+  const auto still = of(LoadQuantity::velocity, "0");
+  const LoadComponent free;
+  ImplicitParameters numbers;
+  numbers.first_step = numbers.largest_step = 1.;
+  numbers.force_ratio                       = 1e-6;
+  numbers.line_search                       = false;
+  double turned[2];
+  std::vector<IterationReport> iterations[2];
+  for (const unsigned int k : { 0, 1 })
+  {
+    Bar bar(
+        { cap("foot", "z0", { still, still, still }, { still, still, still }),
+          cap("head", "z1", {},
+              { free, of(LoadQuantity::force, "2e7*t"), free }) },
+        numbers, k == 0 ? MPI_COMM_SELF : MPI_COMM_WORLD);
+    turned[k]     = bar.platen(1).rigid_motion()->displacement(bar.state)[4];
+    iterations[k] = bar.solver.record().iterations;
+  }
+  EXPECT_GT(turned[0], 0.02);
+  EXPECT_NEAR(turned[1], turned[0], 1e-6 * turned[0]);
+  ASSERT_EQ(iterations[1].size(), iterations[0].size());
+  ASSERT_GT(iterations[0].size(), 3U);
+  for (unsigned int i = 0; i < iterations[0].size(); ++i)
+    EXPECT_NEAR(iterations[1][i].unbalanced_ratio,
+                iterations[0][i].unbalanced_ratio,
+                1e-5 * iterations[0][i].unbalanced_ratio + 1e-9);
 }
 
 // The foot turns about a skew axis and moves; the head follows without force.
