@@ -333,6 +333,7 @@ namespace quoin
                            || quantity == HistoryQuantity::velocity
                            || is_of_two_points()
                            || quantity == HistoryQuantity::stress
+                           || quantity == HistoryQuantity::joint
                            || quantity == HistoryQuantity::yielding
                            || quantity == HistoryQuantity::principal_stress;
     if (point_has_z != (dim == 3) && (has_point || point_has_z))
