@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace quoin
@@ -221,6 +222,35 @@ namespace quoin
         }
     }
   } // namespace
+
+  void find_wave_origins(const NodeMap<3> &node_map,
+                         std::vector<LoadParameters> &loads)
+  {
+    const auto seeks = [](const LoadParameters &load)
+    { return load.wave_direction && !load.wave_origin; };
+    const auto unit_direction = [](const LoadParameters &load)
+    { return *load.wave_direction / load.wave_direction->norm(); };
+    std::vector<std::optional<dealii::Point<3>>> origins(loads.size());
+    for (unsigned int i = 0; i < loads.size(); ++i)
+    {
+      if (!seeks(loads[i]))
+        continue;
+      std::vector<BoundaryFace<3>> faces;
+      for (const LoadParameters &other : loads)
+      {
+        if (!seeks(other)
+            || (unit_direction(other) - unit_direction(loads[i])).norm() > 1e-9)
+          continue;
+        const auto more
+            = faces_of_curves(node_map, other.boundaries, other.name);
+        faces.insert(faces.end(), more.begin(), more.end());
+      }
+      origins[i] = first_place(loads[i], faces);
+    }
+    for (unsigned int i = 0; i < loads.size(); ++i)
+      if (origins[i])
+        loads[i].wave_origin = origins[i];
+  }
 
   PlaneWaveForces::PlaneWaveForces(const LoadParameters &load,
                                    const NodeMap<3> &node_map,

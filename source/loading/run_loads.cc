@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/absorbing/plane_waves.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/base/number_text.h>
@@ -154,11 +155,14 @@ namespace quoin
 
   template <int dim>
   RunLoads<dim>::RunLoads(const Model<dim> &model,
-                          const std::vector<LoadParameters> &loads,
+                          const std::vector<LoadParameters> &given,
                           std::unique_ptr<FarField> far_field,
                           std::unique_ptr<StaticFarField> static_field)
   {
-    const auto &nodes = model.nodes();
+    const auto &nodes                 = model.nodes();
+    std::vector<LoadParameters> loads = given;
+    if constexpr (dim == 3)
+      find_wave_origins(nodes, loads);
     for (const LoadParameters &load : loads)
     {
       names.push_back(load.name);

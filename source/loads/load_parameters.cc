@@ -544,8 +544,9 @@ namespace quoin
       entries.other(
           "Incident origin", "",
           "Place x, y, z that incident plane waves pass at t = 0, before they "
-          "reach the boundary; empty: the place of this boundary that they "
-          "reach first [m]",
+          "reach the boundary; empty: the place that they reach first, of the "
+          "boundaries of all loads with the same 'Incident direction' and no "
+          "origin [m]",
           [&](const ParameterSection &section)
           {
             if (const auto x = numbers_or_none(section, "Incident origin"))

@@ -75,6 +75,14 @@ namespace quoin
     std::vector<Component> waves;
   };
 
+  /**
+   * Gives the @p loads with a direction of plane waves but without an origin
+   * one in common with all others of this direction: the place of their
+   * boundaries that the waves reach first. Collective.
+   */
+  void find_wave_origins(const NodeMap<3> &node_map,
+                         std::vector<LoadParameters> &loads);
+
   /** What plane waves do to the nodes of a viscous boundary. */
   class PlaneWaveForces
   {

@@ -47,7 +47,7 @@ namespace quoin
      * elements', or null. Throws an InputError about loads that do not go with
      * the model or with each other. Collective.
      */
-    RunLoads(const Model<dim> &model, const std::vector<LoadParameters> &loads,
+    RunLoads(const Model<dim> &model, const std::vector<LoadParameters> &given,
              std::unique_ptr<FarField> far_field,
              std::unique_ptr<StaticFarField> static_far_field);
 
