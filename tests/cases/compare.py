@@ -81,6 +81,13 @@ def iterations_a_step(output):
     return summary["iterations"] / summary["steps"]
 
 
+def most_linear_iterations(output):
+    """Iterations of the iterative linear solver for a system: 1 where multigrid
+    has one level alone, the factors, 0 of LU factors."""
+    rows, _ = common.read_table(os.path.join(output, "convergence.csv"))
+    return np.max(rows["linear iterations"])
+
+
 def run_case(case, options):
     name = case["name"]
     results = common.begin(options, name)
@@ -106,6 +113,8 @@ def run_case(case, options):
                                                  histories)
         iterations = ("iterations a step" in case
                       and iterations_a_step(output))
+        linear = ("linear iterations" in case
+                  and most_linear_iterations(output))
         failed = common.unexpected_warnings(case.get("warnings", []), output,
                                             case.get("possible warnings", []))
         residual = common.energy_residual_share(output)
@@ -119,6 +128,13 @@ def run_case(case, options):
     if iterations and iterations > case["iterations a step"]:
         failed.append("%.2f iterations a step > %g"
                       % (iterations, case["iterations a step"]))
+    if "linear iterations" in case:
+        least, most = case["linear iterations"]
+        print("  %-30s %d  from %d to %d"
+              % ("linear iterations", linear, least, most))
+        if not least <= linear <= most:
+            failed.append("%d linear iterations, not from %d to %d"
+                          % (linear, least, most))
     print("  %-30s %.3e  tolerance %.1e"
           % ("energy residual / throughput", residual,
              tolerances["energy residual"]))

@@ -19,7 +19,8 @@ with joints and their dashpots, and with a crack. Bars through
 divided blocks, by both solvers. A wall in equilibrium, cracking, to what its
 iterations leave, by both linear solvers; water in a joint by both solvers; a block that
 is distributed over 2 and 3 ranks in equilibrium, without
-and with joints inside. A stack of blocks under a load pattern, by both solvers.
+and with joints inside; tetrahedra with a joint by multigrid. A stack of blocks under a
+load pattern, by both solvers.
 """
 import json
 import os
@@ -284,6 +285,14 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                 ["Solver=implicit", "Joints/slope/Friction angle=36",
                  "Stages/slide/Duration=0.1", "Implicit/First step=0.25",
                  "Implicit/Largest step=0.25",
+                 "Implicit/Force ratio=1e-11"]),
+            # multigrid with rotations, whose coarse levels differ with the ranks
+            "implicit, space, iterative": (
+                os.path.join(common.VERIFICATION, "space_joint_patch",
+                             "case.prm"),
+                ["Mesh/File=fine.geo", "Solver=implicit",
+                 "Implicit/Linear solver=iterative",
+                 "Implicit/First step=0.5", "Implicit/Largest step=0.5",
                  "Implicit/Force ratio=1e-11"]),
             # a load pattern on divided blocks
             "pattern": (COLLAPSE, COLLAPSING),

@@ -1,6 +1,7 @@
 // A quarter of a disc of radius 1 m, the crack, inside a quarter of a block of
 // 8 m x 8 m x 8 m; it ends at the planes of symmetry x = 0 and y = 0.
 SetFactory("OpenCASCADE");
+DefineConstant[ h = 0.12 ]; // edges at the crack
 Box(1) = {0, 0, -4, 4, 4, 8};
 Point(101) = {0, 0, 0};
 Point(102) = {1, 0, 0};
@@ -18,7 +19,7 @@ Field[1] = Distance;
 Field[1].SurfacesList = {crack[]};
 Field[2] = Threshold;
 Field[2].InField = 1;
-Field[2].SizeMin = 0.12;
+Field[2].SizeMin = h;
 Field[2].SizeMax = 1;
 Field[2].DistMin = 0.2;
 Field[2].DistMax = 4;

@@ -1,5 +1,5 @@
 // Box of 1 m x 0.8 m x 0.6 m, cut by the plane z = 0.2 + 0.2 x + y/16.
-h = 0.2;
+DefineConstant[ h = 0.2 ];
 
 Point(1) = {0, 0, 0, h};
 Point(2) = {1, 0, 0, h};

@@ -1,5 +1,5 @@
 // A bar of 1 m x 1 m, 4 m high along z, of tetrahedra.
-h = 0.5;
+DefineConstant[ h = 0.5 ];
 Point(1) = {0, 0, 0};
 Point(2) = {1, 0, 0};
 Point(3) = {1, 1, 0};

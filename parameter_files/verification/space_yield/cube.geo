@@ -1,8 +1,9 @@
 // Cube of 1 m with an irregular mesh of tetrahedra.
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};
-Mesh.MeshSizeMin = 0.4;
-Mesh.MeshSizeMax = 0.4;
+DefineConstant[ h = 0.4 ];
+Mesh.MeshSizeMin = h;
+Mesh.MeshSizeMax = h;
 
 Physical Surface("x0") = {1};
 Physical Surface("x1") = {2};

@@ -1,0 +1,3 @@
+// The bar with edges of 0.2 m.
+h = 0.2;
+Include "bar.geo";
