@@ -20,6 +20,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import common  # noqa: E402
+import ranks as on_ranks  # noqa: E402
 from common import Failure  # noqa: E402
 
 TABLES = ("histories.csv", "energies.csv", "safety.csv", "flow.csv")
@@ -143,6 +144,11 @@ CASES = {
                  ["Solver=implicit", "Output/Checkpoint interval=0.05",
                   "Output/Field interval=5e-3", "Stages/push/Duration=0.02"],
                  1, 2),
+    # composite joints of tetrahedra under a load pattern
+    "implicit, space, wall": (
+        on_ranks.SPACE_WALL, on_ranks.CRACKING + [
+            "Output/Checkpoint interval=0.02", "Output/Field interval=0.1",
+            "Stages/push/Duration=0.4"], 1, 2),
     "implicit on 2 ranks": (
         os.path.join(common.MASONRY, "tue_walls", "j4d.prm"),
         ["Solver=implicit", "Output/Checkpoint interval=0.05",
