@@ -427,7 +427,7 @@ namespace quoin
            && state.stage_step > interval
            && state.unbalanced_ratio <= stage.static_ratio
            && !system.solver->stage_loads().change(
-               state, interval * system.explicit_solver->get_time_step());
+               state, interval, system.explicit_solver->get_time_step());
   }
 
   template struct BlockContext<2>;

@@ -79,6 +79,9 @@ namespace quoin
       if (all.beams)
         all.beams->set_gravity(acting.nodal);
     acting.beams = all.beams.get();
+    acting.water = all.water && all.water->parameters().acts_in(stage.name)
+                       ? all.water
+                       : nullptr;
     acting.pattern.reset();
     if (stage.pattern)
     {

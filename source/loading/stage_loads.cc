@@ -57,17 +57,22 @@ namespace quoin
     if (beams)
       for (const double load : beams->loads(time))
         result.push_back({ load, 0., 0., 0., 0. });
+    if (water)
+      for (const double value : water->boundary_values(time))
+        result.push_back({ value, 0., 0., 0., 0. });
     return result;
   }
 
   template <int dim>
   bool StageLoads<dim>::change(const State<dim> &state,
-                               const double duration) const
+                               const std::uint64_t n_steps,
+                               const double step) const
   {
     constexpr double earliest = 1e-9; // [s]
-    const double now          = state.load_time;
-    const double before       = std::max(0., now - duration);
-    const auto present        = values(state.stage_start, now);
+    const double duration = step * double(n_steps + (water ? water->lag() : 0));
+    const double now      = state.load_time;
+    const double before   = std::max(0., now - duration);
+    const auto present    = values(state.stage_start, now);
     if (present != values(state.stage_start, before))
       return true;
     if (release.changes() && release.share(before) != release.share(now))

@@ -205,7 +205,8 @@ namespace quoin
         entries.nonnegative(
             "Minimum duration", stage.minimum_duration,
             "Minimum duration of a stage with 'End = static ratio', which "
-            "lasts in any case until its loads are constant [s]");
+            "lasts in any case until its loads and what 'Water boundaries' "
+            "give are constant [s]");
       }
       entries.other(
           "End conditions", "",

@@ -357,6 +357,14 @@ namespace quoin
     return false;
   }
 
+  std::vector<double> JointFlow::boundary_values(const TimePoint &time) const
+  {
+    std::vector<double> result;
+    for (const WaterBoundary &boundary : given.boundaries)
+      result.push_back(boundary.value(time));
+    return result;
+  }
+
   void JointFlow::update(const StepContext &step, State<2> &state)
   {
     JointFlowState &water = state.get<JointFlowState>();

@@ -11,8 +11,10 @@
 #include <quoin/motions/motion_constraint.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/structures/beams.h>
+#include <quoin/water/joint_flow.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -27,6 +29,8 @@ namespace quoin
     std::vector<MotionConstraint<dim> *> constraints;
     std::vector<const NodalLoad<dim> *> nodal;
     const Beams *beams = nullptr; /**< with loads of their own; null: none */
+    /** Water in the joints, with given values at its boundaries; null: none. */
+    const JointFlow *water = nullptr;
     Release<dim> release; /**< release of the forces of excavated blocks */
     /** Loads that one factor scales, beside 'nodal'; null: none. */
     std::shared_ptr<LoadPattern<dim>> pattern;
@@ -35,11 +39,14 @@ namespace quoin
     std::vector<std::array<double, 5>> values(double stage_start,
                                               double load_time) const;
     /**
-     * Whether they have changed in the last @p duration of the stage [s], or
-     * will: a static stage does not end before they are constant. Future times
-     * are sampled with a ratio of 1.1: a shorter pulse may be missed.
+     * Whether they have changed in the last @p n_steps explicit steps of
+     * @p step [s], or will: a static stage does not end before they are
+     * constant and water that is solved every so many steps has followed them.
+     * Future times are sampled with a ratio of 1.1: a shorter pulse may be
+     * missed.
      */
-    bool change(const State<dim> &state, double duration) const;
+    bool change(const State<dim> &state, std::uint64_t n_steps,
+                double step) const;
 
     /** When those that grow or are released by themselves have done so [s]. */
     double growth() const;

@@ -820,7 +820,7 @@ TEST(ExplicitSolver, LoadsThatComeLateAreStillToChange)
                   traction("push", "top", "", function) });
     run.begin(stage_with({ "base", "push" }));
     run.state.load_time = load_time;
-    return run.solver.stage_loads().change(run.state, 1e-3);
+    return run.solver.stage_loads().change(run.state, 1, 1e-3);
   };
   EXPECT_FALSE(changes("-1e3", 0.));
   EXPECT_TRUE(changes("-1e3 * min(1, t / 0.1)", 0.05));
