@@ -251,7 +251,7 @@ namespace quoin
                if (parameters.initial_motion.is_given())
                  all_or_none<InputError>(
                      communicator,
-                     [&]() { parameters.initial_motion.apply(state); });
+                     [&]() { parameters.initial_motion.apply(*nodes, state); });
                refuse_moved_rigid_blocks(*model, state);
                if constexpr (dim == 2)
                  start_blocks(named_blocks, *model, *solver,

@@ -47,10 +47,10 @@ namespace quoin
         entries.other(
             name, "",
             name
-                + " of all nodes at t = 0, horizontal and vertical, as two "
-                  "expressions of x and y [m] with a semicolon between them; "
-                  "in three dimensions along x, y and z, as three expressions "
-                  "of x, y and z; empty: zero "
+                + " at t = 0 of all nodes of the blocks that are there then, "
+                  "horizontal and vertical, as two expressions of x and y [m] "
+                  "with a semicolon between them; in three dimensions along x, "
+                  "y and z, as three expressions of x, y and z; empty: zero "
                 + unit,
             [&](const ParameterSection &section)
             {
@@ -74,7 +74,7 @@ namespace quoin
   }
 
   template <int dim>
-  void InitialMotion::apply(State<dim> &state) const
+  void InitialMotion::apply(const NodeMap<dim> &nodes, State<dim> &state) const
   {
     for (const auto &[name, value] :
          { std::make_pair("Displacement", &displacement),
@@ -86,6 +86,9 @@ namespace quoin
             " dimensions. Give as many expressions, with semicolons between."));
     for (std::size_t i = 0; i < state.nodes.size(); ++i)
     {
+      // Blocks that are placed later come at rest.
+      if (state.is_absent(nodes.block_of_node(i)))
+        continue;
       NodeRecord<dim> &node = state.nodes[i];
       dealii::Point<3> x;
       dealii::Point<dim> place;
@@ -104,6 +107,6 @@ namespace quoin
     }
   }
 
-  template void InitialMotion::apply(State<2> &) const;
-  template void InitialMotion::apply(State<3> &) const;
+  template void InitialMotion::apply(const NodeMap<2> &, State<2> &) const;
+  template void InitialMotion::apply(const NodeMap<3> &, State<3> &) const;
 } // namespace quoin

@@ -6,6 +6,7 @@
 
 #include <quoin/signals/space_time_function.h>
 #include <quoin/base/parameter_section.h>
+#include <quoin/mesh/node_map.h>
 #include <quoin/operators/state.h>
 
 #include <vector>
@@ -13,8 +14,9 @@
 namespace quoin
 {
   /**
-   * Displacement [m] and velocity [m/s] of all nodes at the start of the run,
-   * as functions of x, y and, in three dimensions, z: section 'Initial motion'.
+   * Displacement [m] and velocity [m/s] of all nodes of the blocks that are
+   * there at the start of the run, as functions of x, y and, in three
+   * dimensions, z: section 'Initial motion'.
    * Both are those of t = 0; the first half step to the velocities of dt/2
    * follows from the forces.
    */
@@ -31,10 +33,11 @@ namespace quoin
     {
       return !displacement.empty() || !velocity.empty();
     }
-    /** Sets the motion of the nodes of @p state, ghosts included. Throws an
-        InputError where it has not dim components or is not finite. */
+    /** Sets the motion of the @p nodes of @p state, ghosts included, but for
+        those of blocks that are absent. Throws an InputError where it has not
+        dim components or is not finite. */
     template <int dim>
-    void apply(State<dim> &state) const;
+    void apply(const NodeMap<dim> &nodes, State<dim> &state) const;
   };
 } // namespace quoin
 

@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/initial_block_motion.h>
 #include <quoin/dynamics/initial_energy.h>
+#include <quoin/loads/initial_motion.h>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -118,4 +119,28 @@ TEST(InitialBlockMotion, IsNoneOfBlocksThatAreHeldOrAbsent)
       });
   EXPECT_NE(message.find("not there at the start"), std::string::npos)
       << message;
+}
+
+TEST(InitialMotion, IsNoneOfAbsentBlocks)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, stack_of(false), {});
+  run.state.block_marks = { block_mark::present, block_mark::absent };
+  InitialMotion motion;
+  for (const std::string value : { "2", "x" })
+  {
+    motion.displacement.emplace_back("1e-3*" + value, "./", 2);
+    motion.velocity.emplace_back(value, "./", 2);
+  }
+  motion.apply(*run.nodes, run.state);
+  for (unsigned int i = 0; i < run.nodes->n_local(); ++i)
+  {
+    const double moves = run.nodes->block_of_node(i) == 0 ? 1. : 0.;
+    const double x     = run.state.nodes[i].X[0];
+    EXPECT_EQ(run.state.nodes[i].u[0], moves * 2e-3);
+    EXPECT_DOUBLE_EQ(run.state.nodes[i].u[1], moves * 1e-3 * x);
+    EXPECT_EQ(run.state.velocity[i][0], moves * 2.);
+    EXPECT_EQ(run.state.velocity[i][1], moves * x);
+  }
 }
