@@ -8,6 +8,8 @@
 #include <quoin/results/result_origin.h>
 #include <quoin/structures/beam_fields.h>
 
+#include <numeric>
+
 namespace quoin
 {
   namespace
@@ -26,6 +28,24 @@ namespace quoin
                  ? "Take 'Solver = explicit' with 'Displacements = large' in "
                    "section 'Contact'"
                  : "Take 'Displacements = large' in section 'Contact'";
+    }
+
+    /** Number of points at which each beam is attached to blocks. */
+    template <int dim>
+    std::vector<unsigned int> attached_points(const BlockSystem<dim> &system,
+                                              const State<dim> &state)
+    {
+      std::vector<unsigned int> result;
+      if constexpr (dim == 2)
+        if (const Beams *beams = system.solver->loads().beams.get())
+          for (const auto &[line, interface] : beams->all())
+          {
+            const auto begin = state.template get<BeamState>().attached.begin()
+                               + interface.first;
+            result.push_back(
+                std::accumulate(begin, begin + interface.points.size(), 0U));
+          }
+      return result;
     }
   } // namespace
 
@@ -95,7 +115,9 @@ namespace quoin
   template <int dim>
   void BlockStage<dim>::begin_model()
   {
+    const std::vector<unsigned int> points = attached_points(system, state);
     system.begin_stage(index, state);
+    warn_of_cut_liners(points);
     outputs.begin_stage(stage.reset, state);
     context.note_rounding();
     for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
@@ -105,6 +127,24 @@ namespace quoin
                     "whose neighbour across the joint is excavated or not "
                     "there yet. If the water drains there, give these joints "
                     "a load of their own, and leave it out of the stage.");
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_cut_liners(
+      const std::vector<unsigned int> &before) const
+  {
+    const std::vector<unsigned int> now = attached_points(system, state);
+    if constexpr (dim == 2)
+      for (std::size_t b = 0; b < before.size(); ++b)
+        if (now[b] < before[b])
+          log.warning(
+              "stage ", stage.name, ": the liner ",
+              system.solver->loads().beams->all()[b].line.given.name,
+              " is attached to blocks that 'Excavate' takes away. Its "
+              "interface to them is cut at once, whatever 'Release' says: what "
+              "it bore there shakes it, or goes to its other blocks. Excavate "
+              "before the stage that places the liner, or line only what "
+              "stays.");
   }
 
   template <int dim>

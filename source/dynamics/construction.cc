@@ -163,6 +163,8 @@ namespace quoin
                                     State<dim> &state) const
   {
     const auto &joints = model.joints();
+    const auto blocks  = blocks_in(step.excavate);
+    solver.cut_liners(blocks, state);
     AlignedArray<dealii::Tensor<1, dim>> held(state.nodes.size(),
                                               dealii::Tensor<1, dim>());
     AlignedArray<dealii::Tensor<1, dim>> lost = held; // of excavated joints
@@ -193,7 +195,6 @@ namespace quoin
 
     state.block_marks.resize(model.nodes().table().n_blocks(),
                              block_mark::present);
-    const auto blocks = blocks_in(step.excavate);
     for (const unsigned int block : blocks)
       state.block_marks[block] = block_mark::absent;
     state.energy.external -= solver.stop_blocks(blocks, state);

@@ -155,6 +155,15 @@ namespace quoin
   }
 
   template <int dim>
+  void Solver<dim>::cut_liners(const std::vector<unsigned int> &blocks,
+                               State<dim> &state)
+  {
+    if constexpr (dim == 2)
+      if (all.beams)
+        all.beams->cut(blocks, state);
+  }
+
+  template <int dim>
   void Solver<dim>::save(State<dim> &state) const
   {
     if constexpr (dim == 2)

@@ -227,6 +227,26 @@ namespace quoin
   }
 
   template <int dim>
+  void ImplicitSolver<dim>::cut_liners(const std::vector<unsigned int> &blocks,
+                                       State<dim> &state)
+  {
+    if constexpr (dim == 2)
+    {
+      if (!all.beams || !all.beams->cut(blocks, state))
+        return;
+      State<2> settled = state;
+      AlignedArray<dealii::Tensor<1, 2>> unused(state.nodes.size(),
+                                                dealii::Tensor<1, 2>());
+      // Without an equilibrium the steps of the stage say so.
+      if (all.beams
+              ->settle({ state.load_time, state.time }, state, settled,
+                       unused.data(), nullptr)
+              .empty())
+        state = std::move(settled);
+    }
+  }
+
+  template <int dim>
   void ImplicitSolver<dim>::save(State<dim> &state) const
   {
     Solver<dim>::save(state);

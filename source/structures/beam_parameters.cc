@@ -36,7 +36,9 @@ namespace quoin
                       "has those of the mesh [-]");
       entries.text("Boundary", beam.boundary,
                    "Physical curve that is lined, instead of 'Points': a "
-                   "boundary of blocks, or that of an excavation.");
+                   "boundary of blocks, or that of an excavation. A later "
+                   "stage that excavates blocks of it cuts the liner from "
+                   "them at once.");
       entries.text("Interface", beam.interface,
                    "Set of joints whose law acts between a liner and the "
                    "blocks, at the nodes of the blocks.");

@@ -125,6 +125,56 @@ namespace quoin
       line.find_rest(state.get<BeamState>());
   }
 
+  bool Beams::cut(const std::vector<unsigned int> &blocks,
+                  State<2> &state) const
+  {
+    BeamState &now  = state.get<BeamState>();
+    BeamState going = now; // with what is cut alone
+    bool any        = false;
+    for (const auto &[line, interface] : beams)
+      for (unsigned int k = 0; k < interface.points.size(); ++k)
+      {
+        const unsigned int p = interface.first + k;
+        const bool goes      = interface.acts(k, state, now)
+                          && std::find(blocks.begin(), blocks.end(),
+                                       interface.points[k].block)
+                                 != blocks.end();
+        going.attached[p] = goes;
+        any               = any || goes;
+        if (goes)
+          now.attached[p] = 0;
+      }
+    if (!any)
+      return false;
+    AlignedArray<dealii::Tensor<1, 2>> lost(n_nodes, dealii::Tensor<1, 2>()),
+        by_point(n_points, dealii::Tensor<1, 2>());
+    EnergyAccounts unused;
+    going.stored_joint = 0.;
+    find_block_positions(state, going);
+    for (const auto &[line, interface] : beams)
+      interface.add_forces(line, state, going, unused, lost.data(),
+                           by_point.data());
+    // The present energy includes the work of these forces over the last half
+    // step.
+    double power = 0.;
+    for (const auto &[line, interface] : beams)
+      for (unsigned int k = 0; k < interface.points.size(); ++k)
+        if (const unsigned int node = interface.points[k].node;
+            node != NodeMap<2>::none)
+          power -= by_point[interface.first + k] * state.velocity[node];
+    for (unsigned int i = 0; i < n_nodes; ++i)
+    {
+      if (is_first_rank)
+        power += lost[i] * now.velocity[i];
+      now.load[i] += lost[i];
+    }
+    now.stored_joint -= going.stored_joint;
+    state.energy.external -= 0.5 * state.previous_time_step * power;
+    if (is_first_rank)
+      state.energy.external -= going.stored_joint;
+    return true;
+  }
+
   void Beams::set_gravity(const std::vector<const NodalLoad<2> *> &loads)
   {
     gravity_loads.clear();

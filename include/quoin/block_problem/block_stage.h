@@ -179,6 +179,9 @@ namespace quoin
     /** Warns of beams whose axial force is beyond their strength, and of liners
         that it bends along the chords of a curve. */
     void warn_of_beam_forces() const;
+    /** Warns of liners that the stage cuts from blocks that it excavates, with
+        the number of points of each of them @p before. */
+    void warn_of_cut_liners(const std::vector<unsigned int> &before) const;
     /** Warns if joints lost their bond while loads came on; collective. */
     void warn_of_lost_bond() const;
     /** Records the loads of the row for @p time [s]. */

@@ -85,6 +85,11 @@ namespace quoin
       return 0.;
     }
 
+    /** Cuts the interfaces of liners to @p blocks, which are about to be taken
+        away: Beams::cut(). Collective. */
+    virtual void cut_liners(const std::vector<unsigned int> &blocks,
+                            State<dim> &state);
+
     /** Throws a RunError if the motion is no longer finite, which names the
         load if one is not; collective. */
     void check_finite(const State<dim> &state) const;

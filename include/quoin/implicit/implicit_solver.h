@@ -98,6 +98,11 @@ namespace quoin
     {
     }
 
+    /** Finds the equilibrium of liners without what is cut, too, while blocks
+        rest: the forces that this leaves on them are then released. */
+    void cut_liners(const std::vector<unsigned int> &blocks,
+                    State<dim> &state) override;
+
     void save(State<dim> &state) const override;
 
     Resultant<dim> resultant(const std::string &load) const override;

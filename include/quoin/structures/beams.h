@@ -42,6 +42,14 @@ namespace quoin
     /** Takes the shapes at rest from @p state, in which beams are placed. */
     void resume_stage(const State<2> &state);
 
+    /**
+     * Cuts the interfaces to @p blocks, which are about to be taken away, for
+     * good. Their forces are gone at once; what they store goes out of State::
+     * energy as external work, and in equilibrium they do work like a load that
+     * goes. Returns whether there were any. Collective.
+     */
+    bool cut(const std::vector<unsigned int> &blocks, State<2> &state) const;
+
     /** Takes from @p loads of the stage the gravity that acts everywhere. */
     void set_gravity(const std::vector<const NodalLoad<2> *> &loads);
     /** Acceleration of that gravity at @p time [m/s^2]. */

@@ -183,6 +183,46 @@ TEST(Construction, EnergyOfMovingBlocksIsAccountedFor)
   }
 }
 
+TEST(Construction, EnergyOfLinersIsAccountedFor)
+{
+  // A liner along one side of both blocks, of which the upper one goes and
+  // comes again.
+  MeshData<2> data;
+  for (const unsigned int i : { 0U, 1U })
+  {
+    const double y = 2. * i;
+    add_grid(data, 3, 2, i == 0 ? "lower" : "upper", 0., y);
+    add_curve(data, "wall", 0., y, 0., y + 2.);
+  }
+  add_curve(data, "joint", 0., 2., 3., 2.);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  for (const bool rigid : { false, true })
+  {
+    const ModelParameters parameters = without_stress(rigid);
+    TestRun run(mesh, parameters, {});
+    JointSetParameters bond = elastic_joint(3e10, 1e10, "bond");
+    BeamParameters liner;
+    liner.name               = "liner";
+    liner.boundary           = "wall";
+    liner.interface          = "bond";
+    liner.modulus            = 3e10;
+    liner.area               = 0.1;
+    liner.second_moment      = 1e-4;
+    liner.density            = 2400.;
+    run.solver.loads().beams = std::make_unique<Beams>(
+        std::vector<BeamParameters>{ liner }, run.nodes, std::vector{ bond },
+        1., run.model.thickness());
+    EXPECT_LT(residual_in_motion(run, { stage_of({ "upper" }, {}, 0.6),
+                                        stage_of({}, { "upper" }) }),
+              1e-5);
+    unsigned int n_attached = 0;
+    for (const auto flag : run.state.get<BeamState>().attached)
+      n_attached += flag;
+    EXPECT_EQ(n_attached, 3u) << "nodes of the lower block";
+  }
+}
+
 TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
 {
   BlockMesh<2> mesh;
