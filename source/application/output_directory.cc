@@ -32,7 +32,8 @@ namespace quoin
     remove_checkpoint(output);
     for (const char *name :
          { "summary.json", "histories.csv", "energies.csv", "safety.csv",
-           "convergence.csv", "far_field.csv", "rock_statistics.csv" })
+           "convergence.csv", "far_field.csv", "flow.csv", "blocks_outside.csv",
+           "rock_statistics.csv" })
       fs::remove(output + "/" + name, error);
     remove_series(output);
     remove_series(output + "/mechanism");

@@ -113,7 +113,8 @@ namespace quoin
 
   void remove_series(const std::string &output_directory)
   {
-    const std::string names = "blocks|joints|contacts|cables|boundary|field";
+    const std::string names
+        = "blocks|joints|contacts|cables|beams|boundary|field";
     remove_files(output_directory,
                  "(?:" + names + ")(?:\\.pvd|\\.xdmf|(?:_[0-9]+)?\\.bin)");
     remove_files(output_directory + "/fields", pieces_of(names));

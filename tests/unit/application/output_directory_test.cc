@@ -36,6 +36,12 @@ namespace
   const std::set<std::string> results
       = { "summary.json",
           "far_field.csv",
+          "flow.csv",
+          "blocks_outside.csv",
+          "beams.pvd",
+          "beams.xdmf",
+          "fields/beams_0003_0.vtu",
+          "mechanism/beams.pvd",
           "blocks.pvd",
           "field.pvd",
           "contacts.xdmf",
