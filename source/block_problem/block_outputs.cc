@@ -235,11 +235,14 @@ namespace quoin
   void BlockOutputs<2>::write_water_row(const double time,
                                         const State<2> &state)
   {
-    const JointFlowState &water = state.get<JointFlowState>();
+    const auto &flow = state.get<JointFlowState>().boundary_flow;
+    // The row is one of the start of a step.
+    const FlowVolumes water = system.water->volumes(
+        state, state.stage_start + state.load_time
+                   - state.load_rate * (state.time - time));
     std::vector<double> row
         = { time, water.inflow, water.outflow, water.stored, water.residual };
-    row.insert(row.end(), water.boundary_flow.begin(),
-               water.boundary_flow.end());
+    row.insert(row.end(), flow.begin(), flow.end());
     water_table->add_row(row);
   }
 

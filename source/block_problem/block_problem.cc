@@ -361,7 +361,8 @@ namespace quoin
     if constexpr (dim == 2)
       if (system.water)
       {
-        const JointFlowState &water = state.template get<JointFlowState>();
+        const FlowVolumes water
+            = system.water->volumes(state, state.stage_start + state.load_time);
         summary.update({ { "water inflow [m3]", water.inflow },
                          { "water outflow [m3]", water.outflow },
                          { "stored water [m3]", water.stored },

@@ -224,6 +224,26 @@ namespace quoin
     find_forces();
   }
 
+  void JointFlow::flow_on(const double time, JointFlowState &water) const
+  {
+    if (given.flow != FlowKind::steady || !water.acts || time <= water.time)
+      return;
+    for (const double inflow : water.node_inflow)
+    {
+      const double volume = (time - water.time) * inflow;
+      (volume > 0. ? water.inflow : water.outflow) += std::abs(volume);
+      water.residual += volume;
+    }
+    water.time = time;
+  }
+
+  FlowVolumes JointFlow::volumes(const State<2> &state, const double time) const
+  {
+    JointFlowState water = state.get<JointFlowState>();
+    flow_on(time, water);
+    return { water.inflow, water.outflow, water.stored, water.residual };
+  }
+
   void JointFlow::find_forces()
   {
     std::map<unsigned int, dealii::Tensor<1, 2>> sum;
@@ -271,8 +291,9 @@ namespace quoin
   void JointFlow::begin_stage(const std::string &name, State<2> &state)
   {
     JointFlowState &water = state.get<JointFlowState>();
-    now                   = water;
-    now.time              = state.time;
+    flow_on(state.stage_start + state.load_time, water);
+    now      = water;
+    now.time = state.time;
     find_open_channels(state);
     const bool begins = !now.acts;
     now.acts          = given.acts_in(name);
@@ -383,12 +404,14 @@ namespace quoin
       }
       return;
     }
+    flow_on(step.begin.total, water);
     now    = water;
     before = water;
     set_apertures(state.nodes.data());
     // Explicit steps follow the stiffness of the water themselves.
     std::fill(compliance.begin(), compliance.end(), 0.);
-    take(solve(step.begin, dt, before), step.begin.total, dt, before);
+    take(solve(step.begin, dt, before), step.begin.total,
+         given.flow == FlowKind::steady ? 0. : dt, before);
     water = now;
   }
 

@@ -139,7 +139,8 @@ def cable_stiffness(case, folder, output, histories):
 
 def water_balance(case, folder, output, histories):
     """What flows in, out and is stored closes to 1e-10 of the flow;
-    the last flows at boundaries are those of the table "flows"."""
+    the last flows at boundaries are those of the table "flows", and with
+    "constant flow" they have brought and taken all of the water."""
     table, _ = read_table(os.path.join(output, "flow.csv"))
     went = np.maximum(table["inflow"] + table["outflow"], 1e-300)
     closed = (table["inflow"] - table["outflow"] - table["stored"]
@@ -152,8 +153,17 @@ def water_balance(case, folder, output, histories):
         return {}
     flows, _ = read_table(os.path.join(folder, case["flows"]))
     scale = max(np.max(np.abs(values)) for values in flows.values())
-    return {"flows": max(abs(table[name][-1] - values[0]) / scale
-                         for name, values in flows.items())}
+    errors = {"flows": max(abs(table[name][-1] - values[0]) / scale
+                           for name, values in flows.items())}
+    if case.get("constant flow"):
+        with open(os.path.join(output, "summary.json")) as stream:
+            summary = json.load(stream)
+        rate = sum(max(values[0], 0) for values in flows.values())
+        errors["volumes"] = max(
+            abs(volume / (rate * time) - 1) for volume, time in
+            ((table["inflow"][-1], table["time"][-1]),
+             (summary["water outflow [m3]"], summary["time [s]"])))
+    return errors
 
 
 def space_joint_fields(case, folder, output, histories):

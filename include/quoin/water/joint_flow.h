@@ -56,6 +56,12 @@ namespace quoin
     }
   };
 
+  /** Volumes of water since the start of the run [m^3]. */
+  struct FlowVolumes
+  {
+    double inflow, outflow, stored, residual;
+  };
+
   /**
    * Water that flows along matched joints and presses their faces apart: a
    * FlowNetwork of the joints of all ranks, which every rank solves. Where
@@ -64,7 +70,8 @@ namespace quoin
    *
    * The pressure acts on the reference area, along its normal. Apertures follow
    * from the openings of joints. In explicit steps the flow is solved every so
-   * often with those of the moment; an implicit solver iterates, see follow().
+   * often with those of the moment, and goes on until the next solution; an
+   * implicit solver iterates, see follow().
    */
   class JointFlow : public ForceOperator<2>
   {
@@ -89,6 +96,9 @@ namespace quoin
     void begin_stage(const std::string &name, State<2> &state);
     /** Continues it with the water of @p state. Collective. */
     void resume_stage(const State<2> &state);
+    /** Volumes of @p state until @p time by the clock of loads, not before the
+        last solution [s]. */
+    FlowVolumes volumes(const State<2> &state, double time) const;
     /** Whether there is water in the stage. */
     bool acts() const
     {
@@ -165,6 +175,9 @@ namespace quoin
     /** Makes @p solution, of the last @p dt since @p before, that of now. */
     void take(const FlowSolution &solution, double time, double dt,
               const JointFlowState &before);
+    /** Adds what flows until @p time after the last solution, if that is
+        steady, to the volumes of @p water. */
+    void flow_on(double time, JointFlowState &water) const;
     /** Forces of the pressures of now. */
     void find_forces();
 
