@@ -129,6 +129,23 @@ namespace quoin
     return found;
   }
 
+  template <>
+  double ExplicitSolver<2>::largest_water_eigenvalue() const
+  {
+    auto bound               = all.water->stiffness_bound();
+    const RigidBlocks &rigid = model.rigid_blocks();
+    std::vector<double> rigid_bound;
+    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+      rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
+    std::fill(bound.begin() + model.nodes().n_deformable_nodes(), bound.end(),
+              NodeStiffness<2>{});
+    StableTimeStep<2> stability(bound);
+    stability.set_rigid_blocks(rigid_bound);
+    return dealii::Utilities::MPI::max(
+        stability.largest_eigenvalue(node_mass, rigid_stage.mass_factor),
+        communicator);
+  }
+
   template <int dim>
   void ExplicitSolver<dim>::scale_masses(const StageParameters &stage,
                                          const double start, State<dim> &state)
@@ -172,7 +189,7 @@ namespace quoin
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
     if constexpr (dim == 2)
       if (all.water && all.water->acts())
-        eigenvalue += all.water->largest_eigenvalue(node_mass);
+        eigenvalue += largest_water_eigenvalue();
     critical_step = StableTimeStep<dim>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);

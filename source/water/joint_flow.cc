@@ -22,6 +22,13 @@ namespace quoin
         as high as a channel is long, at which an equilibrium is one [-]. */
     constexpr double pressure_tolerance    = 1e-6;
     constexpr unsigned int most_iterations = 60;
+
+    /** Points from the lower to the upper side. */
+    dealii::Tensor<1, 2> normal_of(const JointChannel &face)
+    {
+      const auto along = face.points[1] - face.points[0];
+      return dealii::Point<2>(along[1], -along[0]) / along.norm();
+    }
   } // namespace
 
   JointFlow::JointFlow(const WaterParameters &parameters,
@@ -261,10 +268,7 @@ namespace quoin
         if (!given.has_suction)
           p[k] = std::max(p[k], 0.);
       }
-      // The normal points from the lower to the upper side.
-      const dealii::Point<2> normal(
-          (face.points[1][1] - face.points[0][1]) / channel.length,
-          (face.points[0][0] - face.points[1][0]) / channel.length);
+      const dealii::Tensor<1, 2> normal = normal_of(face);
       for (unsigned int k = 0; k < 2; ++k)
       {
         // Of linear places.faces the integral of a linear pressure; halves of
@@ -431,32 +435,33 @@ namespace quoin
     return power;
   }
 
-  double JointFlow::largest_eigenvalue(const std::vector<double> &mass) const
+  std::vector<NodeStiffness<2>> JointFlow::stiffness_bound() const
   {
+    std::vector<NodeStiffness<2>> result(node_map.n_owned(),
+                                         NodeStiffness<2>{});
     if (given.flow != FlowKind::transient)
-      return 0.;
+      return result;
     // Water in a joint of the smallest aperture that moves is a spring between
-    // its places.faces: a row of the matrix has at most twice its diagonal.
-    std::vector<double> stiffness(mass.size(), 0.);
-    for (unsigned int c = 0; c < places.faces.size(); ++c)
+    // its faces, of which each side has twice the stiffness.
+    for (const JointChannel &face : places.faces)
     {
-      const HydraulicAperture &law
-          = *places.aperture_of_set[places.faces[c].set];
+      const HydraulicAperture &law = *places.aperture_of_set[face.set];
       if (law.residual == law.largest)
         continue;
+      const auto n = normal_of(face);
       for (unsigned int k = 0; k < 2; ++k)
-        for (const unsigned int node :
-             { places.faces[c].lower[k], places.faces[c].upper[k] })
+        for (const unsigned int node : { face.lower[k], face.upper[k] })
           if (node_map.exchange().owns(node))
-            stiffness[node_map.exchange().local(node)]
-                += given.fluid.bulk_modulus / law.residual
-                   * places.faces[c].areas[k];
+          {
+            const double stiffness
+                = 2. * given.fluid.bulk_modulus / law.residual * face.areas[k];
+            auto &[xx, yy, xy] = result[node_map.exchange().local(node)];
+            xx += stiffness * n[0] * n[0];
+            yy += stiffness * n[1] * n[1];
+            xy += stiffness * n[0] * n[1];
+          }
     }
-    double largest = 0.;
-    for (unsigned int i = 0; i < mass.size(); ++i)
-      if (stiffness[i] > 0.)
-        largest = std::max(largest, 2. * stiffness[i] / mass[i]);
-    return dealii::Utilities::MPI::max(largest, node_map.communicator());
+    return result;
   }
 
   void JointFlow::begin_step(const State<2> &state)

@@ -168,6 +168,9 @@ namespace quoin
         stage: by the bound of each node or, if that is wanted, of the assembled
         stiffness, then with its gain [1/s^2]. Collective. */
     double largest_eigenvalue();
+    /** Bound of what the stiffness of the water adds to it [1/s^2]; collective.
+     */
+    double largest_water_eigenvalue() const;
     /** Time over which gravity that begins in the stage grows [s]. */
     double automatic_ramp() const;
     /** Duration of the release of held forces in this stage [s]. */
@@ -243,6 +246,8 @@ namespace quoin
   };
 
   // Members that exist in two dimensions only.
+  template <>
+  double ExplicitSolver<2>::largest_water_eigenvalue() const;
   template <>
   void ExplicitSolver<2>::look_at_box(State<2> &state);
   template <>

@@ -121,9 +121,9 @@ namespace quoin
                    dealii::Tensor<1, 2> *force) const override;
     double external_power(const TimePoint &time,
                           const dealii::Tensor<1, 2> *velocity) const override;
-    /** Largest eigenvalue of the stiffness of the water in explicit steps, by
-        the @p mass of the local nodes [1/s^2]; collective. */
-    double largest_eigenvalue(const std::vector<double> &mass) const;
+    /** Bound of the stiffness of the water in explicit steps at each owned
+        node, as of ForceOperator::add_stiffness_bound() [N/m]. */
+    std::vector<NodeStiffness<2>> stiffness_bound() const;
 
     /** Takes the water of the last equilibrium, @p state. */
     void begin_step(const State<2> &state);

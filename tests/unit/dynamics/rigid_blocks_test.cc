@@ -10,6 +10,7 @@
 #include <quoin/dynamics/highest_frequency.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/mesh/block_numbering.h>
+#include <quoin/water/joint_flow.h>
 
 #include <cstring>
 
@@ -736,4 +737,38 @@ TEST(RigidBlocks, RefusesABlockThatIsRigidInPart)
   parameters.materials[1] = rigid("mortar");
   EXPECT_EQ(find_rigid_blocks(mesh, parameters.materials),
             std::vector<bool>{ true });
+}
+
+TEST(RigidBlocks, StepWithWaterKnowsTheirInertia)
+{
+  // Flat blocks that rock on the water between them.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 1);
+  for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
+    mesh.vertices[v][0] *= 4.;
+  ModelParameters parameters = two_blocks();
+  for (MaterialParameters &stone : parameters.materials)
+    stone.rigid = true;
+  TestRun run(mesh, parameters, {});
+  const auto eigenvalue = [&]()
+  {
+    run.begin(stage_with({}));
+    const double step = run.solver.critical_time_step();
+    return 4. / (step * step);
+  };
+  const double without = eigenvalue();
+  WaterParameters given;
+  given.flow               = FlowKind::transient;
+  given.fluid.bulk_modulus = 2e9;
+  HydraulicAperture aperture;
+  aperture.name     = "joint";
+  aperture.residual = 1e-5;
+  given.joints      = { aperture };
+  JointFlow water(given, run.nodes, run.model.joints(), parameters.joints,
+                  run.model.thickness());
+  run.solver.loads().water = &water;
+  const double half        = 2e9 / 1e-5 * 0.5 * 2.; // at each end [N/m]
+  const double mass        = 2500. * 4. * 0.5;
+  const double exact       = 2. * 2. * half * 2. * 2. / (mass * 17. / 12.);
+  EXPECT_NEAR(eigenvalue() - without, exact, 1e-9 * exact);
 }
