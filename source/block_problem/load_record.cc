@@ -269,6 +269,32 @@ namespace quoin
                 { "time [s]", found->time } };
   }
 
+  namespace
+  {
+    /** Adds the loads on @p beams that are placed, and what holds their ends.
+     */
+    void add_beams(const Beams &beams, const State<2> &state,
+                   const TimePoint &time, ForceBalance &result)
+    {
+      const BeamState &now = state.get<BeamState>();
+      for (std::size_t b = 0; b < beams.all().size(); ++b)
+      {
+        if (!now.placed[b])
+          continue;
+        const BeamLine &line = beams.all()[b].line;
+        const auto loads     = line.loads(time, beams.gravity(time));
+        for (unsigned int i = line.begin; i < line.end; ++i)
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            result.applied[d] += loads[i - line.begin][d];
+            result.size[d] += std::abs(loads[i - line.begin][d]);
+            if (line.held(i, d))
+              result.supports[d] -= beams.node_forces()[i][d];
+          }
+      }
+    }
+  } // namespace
+
   template <int dim>
   ForceBalance force_balance(const BlockSystem<dim> &system,
                              const State<dim> &state, const double load_time)
@@ -302,6 +328,9 @@ namespace quoin
         result.size[d] += std::abs(factor * all[d]);
       }
     }
+    if constexpr (dim == 2)
+      if (loads.beams)
+        add_beams(*loads.beams, state, time, result);
     for (const MotionConstraint<dim> *constraint : loads.constraints)
     {
       const auto &traits = constraint->traits();

@@ -162,9 +162,9 @@ namespace quoin
 
   /**
    * The forces at @p load_time [s] of the stage that has begun, after the step
-   * of
-   * @p state from there on. Forces of platens count as applied, reactions of
-   * all other loads that move nodes, and of driven platens, as supports.
+   * of @p state from there on. Forces of platens and those on beams count as
+   * applied, reactions of all other loads that move nodes, of driven platens
+   * and of the held ends of beams as supports.
    * Collective.
    */
   template <int dim>
