@@ -4,6 +4,7 @@
 #include <quoin/base/packed_vectors.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/point_text.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/operators/archive.h>
 #include <quoin/reinforcement/reinforcement.h>
@@ -49,6 +50,27 @@ namespace quoin
         if (is_gone || state.is_absent(bar.dowels[d].near.block)
             || state.is_absent(bar.dowels[d].far.block))
           now.dowel_broken[d] = 1;
+    }
+
+    /** Refuses the pretension of @p bar of the set @p cable in @p stage. */
+    [[noreturn]] void refuse_pretension(const std::string &cable,
+                                        const std::string &stage,
+                                        const PlacedBar &bar,
+                                        const BarState &now)
+    {
+      const std::string where = "section 'Reinforcement/" + cable + "': ";
+      const auto lost         = std::find(now.lost.begin(), now.lost.end(), 1);
+      if (lost == now.lost.end())
+        throw InputError(where
+                         + "'Pretension' is more than the bond of a bar can "
+                           "bear. Lower it, or lengthen the bond.");
+      const auto &X = bar.hosts[lost - now.lost.begin()].X;
+      throw InputError(where
+                       + "'Pretension' has nothing to hold it in the stage '"
+                       + stage + "', because the block at " + point_text(X)
+                       + " m, in which a bar lies, is excavated or not there "
+                         "yet. Let the bar lie in blocks that are there, or "
+                         "name a stage in which they are as its 'Stage'.");
     }
   } // namespace
 
@@ -143,9 +165,7 @@ namespace quoin
         continue;
       if (!pretension(bar.law, bar.chain, given.pretension * bar.number,
                       states[b]))
-        throw InputError("section 'Reinforcement/" + given.name
-                         + "': 'Pretension' is more than the bond of a bar can "
-                           "bear. Lower it, or lengthen the bond.");
+        refuse_pretension(given.name, name, bar, states[b]);
       if (is_first)
         state.energy.external
             += quoin::stored_energy(bar.law, bar.chain, states[b]);
