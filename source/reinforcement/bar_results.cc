@@ -115,8 +115,9 @@ namespace quoin
                                       + now.plastic[e] / bar.chain.length[e]);
         double shear = 0.;
         for (unsigned int d = 0; d < bar.dowels.size(); ++d)
-          if (bar.dowels[d].element == e)
-            shear = now.dowel_force[2 * d + 1] / bar.number;
+          if (const double force = now.dowel_force[2 * d + 1] / bar.number;
+              bar.dowels[d].element == e && std::abs(force) > std::abs(shear))
+            shear = force;
         fields.shear_force.push_back(shear);
         fields.state.push_back(now.broken[e]          ? 2
                                : now.plastic[e] != 0. ? 1

@@ -150,3 +150,46 @@ TEST(Reinforcement, PretensionInPlace)
                           CableQuantity::head_force, {}),
               5e4, 1e-6);
 }
+
+TEST(Reinforcement, ShearForceOfAnElementIsThatOfItsLargestDowel)
+{
+  // A bar without bond is one element through both joints.
+  MeshData<2> data;
+  const std::vector<std::string> groups = { "lower", "middle", "upper" };
+  ModelParameters parameters;
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    add_grid(data, 2, 1, groups[i], 0., i);
+    parameters.materials.push_back(material(groups[i]));
+    if (i > 0)
+      add_curve(data, "joint", 0., i, 2., i);
+  }
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  const BarEnds ends = { { { 1.2, 2.8 }, { 1.2, 0.3 } } };
+  CableParameters cable;
+  cable.name                = "bar";
+  cable.bars                = { ends };
+  cable.law.stiffness       = 1e8;
+  cable.law.plate_stiffness = cable.law.anchor_stiffness = 1e9;
+  cable.law.dowel_stiffness                              = 1e8;
+  parameters.joints = { elastic_joint(1e10, 1e10) };
+  parameters.cables = { cable };
+  const BlockTriangulation<2> blocks(
+      mesh, std::vector<unsigned int>(mesh.n_cells(), 0),
+      std::vector<bool>(mesh.n_blocks(), false), MPI_COMM_SELF);
+  const NodeMap<2> nodes(blocks, std::vector<NodeMap<2>::Segment>{
+                                     { { { 1.2, 2.8 }, { 1.2, 0.3 } } } });
+  Model<2> model(nodes, parameters);
+  State<2> state = model.initial_state();
+  model.reinforcement().begin_stage("first", true, 0., state);
+  const auto &dowels = model.reinforcement().all()[0].dowels;
+  ASSERT_EQ(dowels.size(), 2u);
+  ASSERT_EQ(dowels[0].element, dowels[1].element);
+  auto &force = state.get<ReinforcementState>().bars[0].dowel_force;
+  force[1]    = -5e3;
+  force[3]    = 2e3;
+  EXPECT_EQ(
+      cable_fields(model.reinforcement(), state).shear_force[dowels[0].element],
+      -5e3);
+}
