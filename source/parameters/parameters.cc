@@ -166,19 +166,31 @@ namespace quoin
       std::vector<std::string> result;
       std::istringstream lines(text);
       for (std::string line; std::getline(lines, line);)
-        for (const std::string word : { " table ", " record " })
-        {
-          const std::size_t place = line.find(word);
-          if (place == std::string::npos)
-            continue;
-          std::string name
-              = dealii::Utilities::trim(line.substr(place + word.size()));
-          // A factor may follow a table, options a record.
-          name = name.substr(0, name.find(word == " table " ? " times " : " "));
-          std::error_code error;
-          if (std::filesystem::is_regular_file(in_folder(top, name), error))
-            result.push_back(in_folder(top, name));
-        }
+        for (const std::string word : { "table ", "record " })
+          for (std::size_t place = line.find(word); place != std::string::npos;
+               place             = line.find(word, place + 1))
+          {
+            if (place == 0
+                || (line[place - 1] != ' ' && line[place - 1] != ';'))
+              continue;
+            std::string name
+                = dealii::Utilities::trim(line.substr(place + word.size()));
+            // A factor may follow a table, options a record, and other
+            // functions either of them.
+            name
+                = name.substr(0, name.find(word == "table " ? " times " : " "));
+            for (const std::string &candidate :
+                 { name,
+                   dealii::Utilities::trim(name.substr(0, name.find(';'))) })
+            {
+              std::error_code error;
+              const std::string path = in_folder(top, candidate);
+              if (!std::filesystem::is_regular_file(path, error))
+                continue;
+              result.push_back(path);
+              break;
+            }
+          }
       return result;
     }
 

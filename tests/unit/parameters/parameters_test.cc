@@ -468,3 +468,20 @@ TEST(Parameters, TablesAndRecordsAreKnown)
   EXPECT_EQ(files[0], it.directory / "shock.txt");
   EXPECT_EQ(files[1], it.directory / "of time.csv");
 }
+
+TEST(Parameters, AllTablesOfAnEntryAreKnown)
+{
+  const Case it(with("set Vertical = 1e6 * t",
+                     "set Vertical = -1e6\n"
+                     "    set Moving shape = uniform\n"
+                     "    set Moving width = 0.5\n"
+                     "    set Moving centre = table a.csv; 2*t;"
+                     "table b of two.csv times 2; table c.csv"));
+  for (const std::string name : { "a.csv", "b of two.csv", "c.csv" })
+    std::ofstream(it.directory / name) << "0, 0\n1, 1\n";
+  const auto files = it.read().time_files;
+  ASSERT_EQ(files.size(), 3U);
+  EXPECT_EQ(files[0], it.directory / "a.csv");
+  EXPECT_EQ(files[1], it.directory / "b of two.csv");
+  EXPECT_EQ(files[2], it.directory / "c.csv");
+}
