@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../implicit/implicit_run.h"
 #include "../joint_laws/rock_walk.h"
 #include "../model/test_models.h"
 
@@ -183,25 +184,28 @@ TEST(Construction, EnergyOfMovingBlocksIsAccountedFor)
   }
 }
 
-TEST(Construction, EnergyOfLinersIsAccountedFor)
+namespace
 {
-  // A liner along one side of both blocks, of which the upper one goes and
-  // comes again.
-  MeshData<2> data;
-  for (const unsigned int i : { 0U, 1U })
+  /** Two blocks, one on the other, with a wall along both of them. */
+  void make_wall(BlockMesh<2> &mesh)
   {
-    const double y = 2. * i;
-    add_grid(data, 3, 2, i == 0 ? "lower" : "upper", 0., y);
-    add_curve(data, "wall", 0., y, 0., y + 2.);
+    MeshData<2> data;
+    for (const unsigned int i : { 0U, 1U })
+    {
+      const double y = 2. * i;
+      add_grid(data, 3, 2, i == 0 ? "lower" : "upper", 0., y);
+      add_curve(data, "wall", 0., y, 0., y + 2.);
+    }
+    add_curve(data, "bottom", 0., 0., 3., 0.);
+    add_curve(data, "joint", 0., 2., 3., 2.);
+    add_curve(data, "top", 0., 4., 3., 4.);
+    split_into_blocks(data, {}, mesh);
   }
-  add_curve(data, "joint", 0., 2., 3., 2.);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
-  for (const bool rigid : { false, true })
+
+  /** A liner of that wall. */
+  template <typename Run>
+  void add_liner(Run &run)
   {
-    const ModelParameters parameters = without_stress(rigid);
-    TestRun run(mesh, parameters, {});
-    JointSetParameters bond = elastic_joint(3e10, 1e10, "bond");
     BeamParameters liner;
     liner.name               = "liner";
     liner.boundary           = "wall";
@@ -211,15 +215,50 @@ TEST(Construction, EnergyOfLinersIsAccountedFor)
     liner.second_moment      = 1e-4;
     liner.density            = 2400.;
     run.solver.loads().beams = std::make_unique<Beams>(
-        std::vector<BeamParameters>{ liner }, run.nodes, std::vector{ bond },
+        std::vector<BeamParameters>{ liner }, run.nodes,
+        std::vector<JointSetParameters>{ elastic_joint(3e10, 1e10, "bond") },
         1., run.model.thickness());
-    EXPECT_LT(residual_in_motion(run, { stage_of({ "upper" }, {}, 0.6),
-                                        stage_of({}, { "upper" }) }),
-              1e-5);
-    unsigned int n_attached = 0;
-    for (const auto flag : run.state.get<BeamState>().attached)
-      n_attached += flag;
-    EXPECT_EQ(n_attached, 3u) << "nodes of the lower block";
+  }
+} // namespace
+
+TEST(Construction, EnergyOfLinersIsAccountedFor)
+{
+  // The upper block goes and comes again.
+  BlockMesh<2> mesh;
+  make_wall(mesh);
+  TestRun run(mesh, without_stress(), {});
+  add_liner(run);
+  EXPECT_LT(residual_in_motion(run, { stage_of({ "upper" }, {}, 0.6),
+                                      stage_of({}, { "upper" }) }),
+            1e-5);
+  unsigned int n_attached = 0;
+  for (const auto flag : run.state.get<BeamState>().attached)
+    n_attached += flag;
+  EXPECT_EQ(n_attached, 3u) << "nodes of the lower block";
+}
+
+TEST(Construction, EnergyOfLinersInEquilibriumIsAccountedFor)
+{
+  BlockMesh<2> mesh;
+  make_wall(mesh);
+  ImplicitRun run(mesh, without_stress(),
+                  { motion("hold", "bottom", "0", "0"),
+                    traction("press", "top", "", "-1e4*t") });
+  add_liner(run);
+  StageParameters pressed = stage_with({ "hold", "press" });
+  StageParameters cut     = stage_of({ "upper" }, {});
+  cut.loads               = { "hold" };
+  Construction construction(run.model, { pressed, cut });
+  run.solver.prepare(run.state);
+  const StageParameters *previous = nullptr;
+  for (const StageParameters *stage : { &pressed, &cut })
+  {
+    construction.begin_stage(previous ? 1 : 0, run.solver, run.state);
+    run.solver.begin_stage(*stage, previous, run.state);
+    run.finish();
+    const Energies &energies = run.solver.energies();
+    EXPECT_LT(std::abs(energies.residual()), 1e-6 * energies.throughput());
+    previous = stage;
   }
 }
 
