@@ -272,9 +272,10 @@ namespace quoin
         refuse_inclined(faces, this->load_name);
     this->node_list = nodes_of_faces(node_map, faces);
     dashpots.resize(this->node_list.size());
-    pull.resize(this->node_list.size());
+    waves.resize(this->node_list.size());
     add_dashpots(node_map, faces, impedance, thickness, this->node_list,
                  dashpots);
+    take_over({});
     if constexpr (dim == 3)
       if (parameters.wave_direction)
         plane_waves = std::make_unique<const PlaneWaveForces>(
@@ -305,6 +306,29 @@ namespace quoin
   }
 
   template <int dim>
+  void ViscousBoundary<dim>::take_over(
+      const std::vector<const ViscousBoundary *> &others)
+  {
+    shared.clear();
+    damping.clear();
+    for (const Dashpot<dim> &dashpot : dashpots)
+      damping.push_back(dashpot.damping);
+    const auto &own = this->node_list;
+    for (const ViscousBoundary *other : others)
+      for (unsigned int i = 0; i < other->node_list.size(); ++i)
+      {
+        const auto found
+            = std::lower_bound(own.begin(), own.end(), other->node_list[i]);
+        if (found == own.end() || *found != other->node_list[i])
+          continue;
+        const auto at = static_cast<unsigned int>(found - own.begin());
+        shared.push_back({ at, i, other });
+        for (unsigned int k = 0; k < damping[at].size(); ++k)
+          damping[at][k] += other->dashpots[i].damping[k];
+      }
+  }
+
+  template <int dim>
   void
   ViscousBoundary<dim>::hold(const std::vector<CapturedNode<dim>> &captured,
                              ViscousBoundaryState<dim> &own) const
@@ -321,13 +345,16 @@ namespace quoin
   {
     if constexpr (dim == 3)
       if (plane_waves)
-        plane_waves->find(components, time, pull);
+        plane_waves->find(components, time, waves);
     if (!plane_waves)
     {
       const auto incident = component_values(components, time);
       for (unsigned int i = 0; i < dashpots.size(); ++i)
-        pull[i] = dashpots[i].pull(incident);
+        waves[i] = dashpots[i].pull(incident);
     }
+    pull = waves;
+    for (const SharedNode &node : shared)
+      pull[node.here] += node.other->waves[node.there];
     if (!own.held.empty())
       for (unsigned int i = 0; i < dashpots.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
@@ -347,7 +374,7 @@ namespace quoin
     find_pulls(step.begin, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       move_with_dashpot(step, captured[this->captured_positions[i]],
-                        dashpots[i].damping, pull[i], this, state);
+                        damping[i], pull[i], this, state);
   }
 
   template <int dim>
@@ -359,8 +386,8 @@ namespace quoin
     this->last_resultant = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       account_for_dashpot(step, captured[this->captured_positions[i]],
-                          dashpots[i].damping, pull[i], this,
-                          this->last_resultant, state);
+                          damping[i], pull[i], this, this->last_resultant,
+                          state);
   }
 
   template struct Dashpot<2>;

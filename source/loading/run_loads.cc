@@ -259,6 +259,16 @@ namespace quoin
       }
       each.ground = now;
     }
+    // Where viscous boundaries meet, the last one moves the nodes for all.
+    std::vector<const ViscousBoundary<dim> *> before;
+    for (const OpenBoundary &each : open_boundaries)
+      if (MotionConstraint<dim> &constraint = *constraints[each.position];
+          !each.base && acts_in(constraint, stage))
+      {
+        auto &boundary = static_cast<ViscousBoundary<dim> &>(constraint);
+        boundary.take_over(before);
+        before.push_back(&boundary);
+      }
   }
 
   template <int dim>

@@ -184,17 +184,35 @@ namespace quoin
       return &components;
     }
 
+    /**
+     * Adds the dashpots and waves of @p others where they share nodes with this
+     * boundary, which moves these nodes as the last one of them. The others
+     * act in the same stage and come before it in the order of constraints.
+     */
+    void take_over(const std::vector<const ViscousBoundary *> &others);
+
   private:
     void hold(const std::vector<CapturedNode<dim>> &captured,
               ViscousBoundaryState<dim> &own) const;
-    /** Finds the forces of incident waves at @p time and those that are held.
-     */
+    /** Finds the forces of incident waves at @p time, also those that others
+        bring to shared nodes, and those that are held. */
     void find_pulls(const TimePoint &time,
                     const ViscousBoundaryState<dim> &own);
 
     std::array<LoadComponent, 3> components;
+    /** A node of this boundary and of another one, by place in their lists. */
+    struct SharedNode
+    {
+      unsigned int here, there;
+      const ViscousBoundary *other;
+    };
+
     std::vector<Dashpot<dim>> dashpots;
-    std::vector<dealii::Tensor<1, dim>> pull; /**< of this step [N] */
+    std::vector<dealii::Tensor<1, dim>> waves; /**< forces of this step [N] */
+    std::vector<dealii::Tensor<1, dim>> pull;  /**< of all that acts [N] */
+    std::vector<SharedNode> shared;
+    /** Of each node, with those of other boundaries. */
+    std::vector<typename Dashpot<dim>::Damping> damping;
     /** Null: waves come along the normal. */
     std::unique_ptr<const PlaneWaveForces> plane_waves;
   };
