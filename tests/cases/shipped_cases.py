@@ -26,6 +26,7 @@ WARNINGS = {
     "masonry/arch_collapse/case.prm": ["has left the box"],
     # blocks as large as the model, with which the implicit solver ends
     "rock/tunnel_face_3d/case.prm": ["of the softest block beside them"],
+    "rock/tunnel_face_3d/sections.prm": ["of the softest block beside them"],
     # bars that cross small blocks
     "rock/bolted_tunnel/case.prm": ["'Active length = 0.1' finds no room"],
     # as coarse as 30 m of rock around allow, see its README
