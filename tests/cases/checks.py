@@ -1089,6 +1089,37 @@ def at_rest_after_switch(case, folder, output, histories):
             "energy residual": residual_of(energies(output))}
 
 
+def rest_then_pulse(case, folder, output, histories):
+    """Settlement in the first stage by the formula's; in the second one
+    velocities before the pulse begins and the motion of the surface, by the
+    velocity of the surface and the settlement; and velocities under the pulse
+    along the "axes" by their peaks."""
+    exact = reference_module(folder)
+    with open(os.path.join(output, "summary.json")) as stream:
+        begin = json.load(stream)["stages"]["settle"]["time [s]"]
+    last = histories["time"] <= begin * (1 + 1e-9)
+    settlement = -histories["top"][last][-1]
+    later = histories["time"] > begin * (1 + 1e-9)
+    t = histories["time"][later] - begin
+    rest = t < exact.BEGINS
+    fastest, errors = 0.0, {"settlement": float(
+        abs(settlement / exact.SETTLEMENT - 1))}
+    for name, values in histories.items():
+        place, _, axis = name.partition("_")
+        if not axis:
+            continue
+        fastest = max(fastest, np.max(np.abs(values[later][rest])))
+        if axis in case["axes"]:
+            wanted = exact.velocity(axis, case["heights"].get(place, 0), t)
+            errors[name] = float(np.max(np.abs(values[later] - wanted))
+                                 / np.max(np.abs(wanted)))
+    return {**errors,
+            "velocity at rest / peak": float(fastest / (2 * 0.01)),
+            "motion at rest / settlement": float(
+                np.ptp(histories["top"][later][rest]) / settlement),
+            "energy residual": residual_of(energies(output))}
+
+
 def kirsch(case, folder, output, histories):
     """Displacements all along the wall relative to the largest one, and the
     hoop stress from the strain of the wall's edges, whose radial stress is
