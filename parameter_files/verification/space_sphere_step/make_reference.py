@@ -52,7 +52,17 @@ def stresses(r, t):
         lame * along + 2 * (lame + MU) * across])
 
 
+def peak():
+    """Largest displacement of the wall [m] and its time [s]."""
+    tau = np.linspace(1.5, 2.5, 100001) * RADIUS / C1
+    u = displacement(1, tau)
+    return np.max(u), tau[np.argmax(u)]
+
+
 def main():
+    largest, time = peak()
+    assert abs(largest / (PRESSURE * RADIUS / (4 * MU)) - 1.258976) < 1e-6
+    assert abs(time * C1 / RADIUS - 2.0265) < 1e-4
     tau = np.linspace(0, 20, 20001)
     f, slope, second = potential(tau)
     assert np.allclose(np.gradient(f, tau)[1:-1], slope[1:-1], atol=1e-6)
@@ -70,19 +80,19 @@ def main():
     assert abs(force / inertia - 1) < 1e-3
     # Lame's static cavity, p a/(4 mu), in the end
     assert abs(displacement(1, 0.1) / (PRESSURE / (4 * MU)) - 1) < 1e-6
-    times = np.arange(0, 8.001, 0.05) * RADIUS / C1
-    wall = displacement(1, times)
-    np.savetxt(os.path.join(HERE, "reference.csv"),
-               np.transpose([times, wall, wall, displacement(2, times)]),
-               delimiter=",", fmt="%.9g", comments="",
-               header="time [s],wall_x [m],wall_z [m],inner_y [m]")
+    for name, end in (("reference.csv", 8), ("reference_far.csv", 10)):
+        times = np.arange(0, end + 0.001, 0.05) * RADIUS / C1
+        wall = displacement(1, times)
+        np.savetxt(os.path.join(HERE, name),
+                   np.transpose([times, wall, wall, displacement(2, times)]),
+                   delimiter=",", fmt="%.9g", comments="",
+                   header="time [s],wall_x [m],wall_z [m],inner_y [m]")
     hoop = np.array([stresses(1, t)[1] for t in tau * RADIUS / C1])
     print("hoop stress at the wall from %.4g to %.4g of the pressure, at c1 t/a "
           "= %.3g" % (hoop[1] / PRESSURE, np.max(hoop) / PRESSURE,
                       tau[np.argmax(hoop)]))
-    print("peak of the wall %.6g of the static displacement, at c1 t/a = %.3g"
-          % (np.max(wall) / (PRESSURE / (4 * MU)), tau[np.argmax(
-              displacement(1, tau * RADIUS / C1))]))
+    print("peak of the wall %.6g of the static displacement, at c1 t/a = %.5g"
+          % (largest / (PRESSURE * RADIUS / (4 * MU)), time * C1 / RADIUS))
 
 
 if __name__ == "__main__":

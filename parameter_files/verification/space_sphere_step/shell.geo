@@ -1,8 +1,8 @@
 // An eighth of a hollow sphere, 1 m to 5 m, finer at the wall, with nodes at 2 m.
 SetFactory("OpenCASCADE");
+DefineConstant[ b = 5 ];
 a = 1;
 m = 2;
-b = 5;
 Sphere(1) = {0, 0, 0, b, 0, Pi/2, Pi/2};
 Sphere(2) = {0, 0, 0, m, 0, Pi/2, Pi/2};
 Sphere(3) = {0, 0, 0, a, 0, Pi/2, Pi/2};
