@@ -211,16 +211,27 @@ def plane_run(case, folder, output):
 
 def plane_wall(case, folder, output, histories):
     """The run in three dimensions in @p output against the plane wall:
-    stiffness of the first step of the push, and the force from then on by the
-    largest one."""
+    stiffness of the first row after the push has lasted the time "elastic", by
+    default of its first step, and the force all along the push by the largest
+    one. Both go beyond their peaks if the last force is to be "fall" of
+    the peak below it; then the peaks, too."""
     reference = plane_run(case, folder, output)
     pushed = reference["time"] > case["settled"] + 1e-9
     wanted = reference["force"][pushed]
     force = np.interp(reference["time"][pushed], histories["time"],
                       histories["force"])
-    return {"stiffness": float(abs(force[0] / wanted[0] - 1)),
-            "force": float(np.max(np.abs(force - wanted))
-                           / np.max(np.abs(wanted)))}
+    peaks = [np.max(np.abs(values)) for values in (wanted, force)]
+    row = np.argmax(reference["time"][pushed]
+                    >= case["settled"] + case.get("elastic", 0))
+    errors = {"stiffness": float(abs(force[row] / wanted[row] - 1)),
+              "force": float(np.max(np.abs(force - wanted)) / peaks[0])}
+    if "fall" in case:
+        for values, peak in zip((wanted, force), peaks):
+            if abs(values[-1]) > (1 - case["fall"]) * peak:
+                raise Failure("a wall ends at %g N, its peak is %g N"
+                              % (abs(values[-1]), peak))
+        errors["peak"] = float(abs(peaks[1] / peaks[0] - 1))
+    return errors
 
 
 def plane_wall_beyond_peak(case, folder, output, histories):
