@@ -1225,7 +1225,7 @@ def salencon(case, folder, output, histories):
     edge of the plastic zone relative to themselves; its radius by the area of
     the cells that have yielded; stresses of all cells relative to the pressure.
     "factor": that of all stresses, and so of displacements, for the small
-    strains of the closed form."""
+    strains of the closed form. "thickness": that of a slice in space."""
     exact = reference_module(folder)
     reference = np.genfromtxt(os.path.join(folder, case["profile"]),
                               delimiter=",", skip_header=1)
@@ -1245,13 +1245,17 @@ def salencon(case, folder, output, histories):
     rc = np.hypot(centre[:, 0], centre[:, 1])
     n = centre / rc[:, None]
     s = grid.cell_data["stress"] / factor
+    shear = s[:, 3 if "thickness" in case else 2]
     along = (s[:, 0] * n[:, 0]**2 + s[:, 1] * n[:, 1]**2
-             + 2 * s[:, 2] * n[:, 0] * n[:, 1])
+             + 2 * shear * n[:, 0] * n[:, 1])
     around = s[:, 0] + s[:, 1] - along
     errors = np.array([along, around]) - exact.stresses(rc)
-    a, b, c = np.moveaxis(x[grid.cells], 1, 0)
-    area = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1]
-                        - (b - a)[:, 1] * (c - a)[:, 0])
+    if "thickness" in case:
+        area = volumes(grid) / case["thickness"]
+    else:
+        a, b, c = np.moveaxis(x[grid.cells], 1, 0)
+        area = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1]
+                            - (b - a)[:, 1] * (c - a)[:, 0])
     yielded = np.sum(area[grid.cell_data["yielding"] > 0])
     yielded = np.sqrt(1 + yielded / (case.get("quarters", 1) * np.pi / 4))
     print("  wall %.3f mm, plastic radius %.3f m"
@@ -1618,7 +1622,8 @@ def space_sphere_yielding(case, folder, output, histories):
 
 def space_sphere_step(case, folder, output, histories):
     """Displacements of all nodes up to 2 m at the times of the fields, relative
-    to the largest of the wall; the radial stress and the hoop stress at the
+    to the largest of the wall; its peak and the time of it, of a parabola
+    through the rows about it; the radial stress and the hoop stress at the
     wall, relative to the pressure; and the residual of the energy balance. What
     stresses of cells differ by is extrapolated to the wall by a straight line
     over r."""
