@@ -284,6 +284,21 @@ def sliding_wall(case, folder, output, histories):
     return result
 
 
+def largest_pressure(case, folder, output, histories):
+    """The residual of the energy balance; the largest force of the supports 'base'
+    and 'edges' across a wall, by the area of its face, must lie between two bounds
+    and be passed: the wall bears less at the end."""
+    errors = checks.energy_residual(case, folder, output, histories)
+    pressure = -(histories["base"] + histories["edges"]) / case["area"]
+    low, high = case["pressure between"]
+    if not low < np.max(pressure) < high:
+        raise Failure("the supports bear at most %g Pa, not between %g and %g"
+                      % (np.max(pressure), low, high))
+    if not pressure[-1] < np.max(pressure):
+        raise Failure("the largest pressure was not passed")
+    return errors
+
+
 def rocking_piers(case, folder, output, histories):
     """The wall with a window of the tutorial: the estimate that its README
     makes by hand. Piers of the length 1 m between cracks that rise at 30
