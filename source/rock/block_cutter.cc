@@ -286,9 +286,8 @@ namespace quoin
     return loop;
   }
 
-  BlockCutter::Result BlockCutter::cut_block(const unsigned int block,
-                                             const JointPlane &plane,
-                                             const unsigned int surface)
+  BlockCutter::Result BlockCutter::try_cut(const unsigned int block,
+                                           const JointPlane &plane) const
   {
     bool has_below = false, has_above = false;
     for (const unsigned int f : blocks[block])
@@ -299,8 +298,15 @@ namespace quoin
       }
     if (!has_below || !has_above)
       return missed;
-    if (!may_cut(block, plane))
-      return refused;
+    return may_cut(block, plane) ? cut : refused;
+  }
+
+  BlockCutter::Result BlockCutter::cut_block(const unsigned int block,
+                                             const JointPlane &plane,
+                                             const unsigned int surface)
+  {
+    if (const Result result = try_cut(block, plane); result != cut)
+      return result;
     cut_edges(block, plane);
     cut_faces(block, plane);
 

@@ -79,24 +79,77 @@ namespace quoin
       return planes;
     }
 
+    /** Blocks in the way of plane @p p of a set that it cuts as far as
+        persistence goes. */
+    std::vector<unsigned int> chosen_blocks(const RockBoxParameters &rock,
+                                            const SpaceJointSet &set,
+                                            const unsigned int p,
+                                            const RockBox &box)
+    {
+      RandomStream random(rock.seed, set.name + " persistence", p);
+      std::vector<unsigned int> chosen;
+      for (unsigned int b = 0; b < box.pieces.n_blocks(); ++b)
+        if (set.persistence >= 1. || random.uniform() < set.persistence)
+          chosen.push_back(b);
+      return chosen;
+    }
+
+    /** Area of @p plane in those of @p blocks that refuse its cut [m^2]. */
+    double refused_area(const RockBox &box,
+                        const std::vector<unsigned int> &blocks,
+                        const JointPlane &plane)
+    {
+      double area = 0.;
+      for (const unsigned int b : blocks)
+        if (box.pieces.try_cut(b, plane) == BlockCutter::refused)
+          area += box.pieces.section(b, plane);
+      return area;
+    }
+
+    /** Moves @p plane, by twice the shortest edge at the most, to where the
+        fewest cuts are refused: a large block would stay whole because of one
+        of its corners. Returns by how much [m]. */
+    double move_aside(const RockBoxParameters &rock, const RockBox &box,
+                      const std::vector<unsigned int> &blocks,
+                      JointPlane &plane)
+    {
+      constexpr unsigned int steps = 4;
+      double least                 = refused_area(box, blocks, plane);
+      const double offset          = plane.offset;
+      for (unsigned int i = 1; i <= steps && least > 0.; ++i)
+        for (const double way : { 1., -1. })
+        {
+          JointPlane moved = plane;
+          moved.offset     = offset + way * i * 2. * rock.shortest_edge / steps;
+          const double area = refused_area(box, blocks, moved);
+          if (area < least)
+          {
+            least = area;
+            plane = moved;
+          }
+        }
+      return std::abs(plane.offset - offset);
+    }
+
     void cut(const RockBoxParameters &rock, const unsigned int s, RockBox &box)
     {
       const SpaceJointSet &set = rock.sets[s];
       for (unsigned int p = 0; p < box.planes[s].size(); ++p)
       {
-        RandomStream random(rock.seed, set.name + " persistence", p);
-        const unsigned int n = box.pieces.n_blocks();
-        for (unsigned int b = 0; b < n; ++b)
+        const auto blocks = chosen_blocks(rock, set, p, box);
+        if (const double move = move_aside(rock, box, blocks, box.planes[s][p]);
+            move > 0.)
         {
-          if (set.persistence < 1. && random.uniform() >= set.persistence)
-            continue;
+          ++box.n_moved;
+          box.largest_move = std::max(box.largest_move, move);
+        }
+        for (const unsigned int b : blocks)
           if (box.pieces.cut_block(b, box.planes[s][p], RockBox::surface(s))
               == BlockCutter::refused)
           {
             ++box.n_refused;
             box.refused_area[s] += box.pieces.section(b, box.planes[s][p]);
           }
-        }
         if (box.pieces.n_blocks() > rock.most_blocks)
           throw InputError(
               "The joint sets cut the rock into more than "
@@ -467,6 +520,12 @@ namespace quoin
               + number_text(BlockBorders(rock, box).shortest_edge())
               + " m; it may limit the step of an explicit run: another "
                 "'Start' of a body or 'Origin' of a set may make it longer";
+    if (box.n_moved > 0)
+      text += "\n" + std::to_string(box.n_moved)
+              + (box.n_moved == 1 ? " plane" : " planes") + " moved by up to "
+              + number_text(box.largest_move)
+              + " m, to cut blocks that would have been left whole for "
+                "'Shortest edge' or 'Smallest block'";
     if (box.n_refused == 0)
       return text;
     text += "\n" + std::to_string(box.n_refused)

@@ -69,6 +69,8 @@ namespace quoin
       shortest_edge = smallest_block = 0.;
     }
 
+    /** What cut_block() would return. */
+    Result try_cut(unsigned int block, const JointPlane &plane) const;
     /** Cuts @p block by @p plane; the new face is part of @p surface. */
     Result cut_block(unsigned int block, const JointPlane &plane,
                      unsigned int surface);

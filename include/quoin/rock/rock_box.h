@@ -83,7 +83,9 @@ namespace quoin
     BlockCutter pieces;
     /** Planes of each set, from the lowest position along the mean normal. */
     std::vector<std::vector<JointPlane>> planes;
-    unsigned int n_refused = 0; /**< cuts left out to keep blocks whole */
+    unsigned int n_refused = 0;  /**< cuts left out to keep blocks whole */
+    unsigned int n_moved   = 0;  /**< planes moved to leave out fewer */
+    double largest_move    = 0.; /**< [m] */
     std::vector<double> refused_area = {}; /**< of them, of each set [m^2] */
     std::vector<Part> parts          = {};
     /** Part that a piece is of; none: the rock mass. */

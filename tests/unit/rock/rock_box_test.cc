@@ -264,6 +264,28 @@ TEST(RockBox, SaysHowMuchOfTheJointsIsLeftOut)
             std::string::npos);
 }
 
+TEST(RockBox, MovesPlanesThatWouldLeaveOutALargeBlock)
+{
+  // A plane at 45 degrees, 7 mm from an edge of the box: the cut would be
+  // refused because of edges of 1 cm.
+  RockBoxParameters rock = box_of(SpacePoint(10, 10, 10));
+  rock.shortest_edge     = 0.1;
+  rock.sets   = { space_set("a", 45, 90, "100", SpacePoint(0.01, 5, 10)) };
+  RockBox box = cut_rock_box(rock);
+  EXPECT_EQ(box.n_refused, 0u);
+  EXPECT_EQ(box.n_moved, 1u);
+  EXPECT_NEAR(box.largest_move, 0.1, 1e-12);
+  // away from the edge, by which it becomes shorter on both sides
+  EXPECT_NEAR(box.joint_area(0), 10. * (std::sqrt(2.) * 9.99 - 0.2), 1e-10);
+  EXPECT_NE(rock_box_report(rock, box).find("1 plane moved by up to 0.1 m"),
+            std::string::npos);
+  // One that passes further away stays where it is.
+  rock.sets[0].origin = SpacePoint(0.2, 5, 10);
+  box                 = cut_rock_box(rock);
+  EXPECT_EQ(box.n_moved, 0u);
+  EXPECT_NEAR(box.joint_area(0), 10. * std::sqrt(2.) * 9.8, 1e-10);
+}
+
 TEST(RockBox, RefusesTooManyBlocksAndNone)
 {
   RockBoxParameters rock = three_orthogonal_sets();
