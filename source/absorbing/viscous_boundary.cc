@@ -373,8 +373,8 @@ namespace quoin
       hold(captured, own);
     find_pulls(step.begin, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
-      move_with_dashpot(step, captured[this->captured_positions[i]],
-                        damping[i], pull[i], this, state);
+      move_with_dashpot(step, captured[this->captured_positions[i]], damping[i],
+                        pull[i], this, state);
   }
 
   template <int dim>
