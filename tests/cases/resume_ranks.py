@@ -128,8 +128,14 @@ CASES = {
                                 "Implicit/Force ratio=1e-11"], UP),
     "implicit": of_ranks("implicit", DOWN),
 }
-# Those that a short test leaves out: ranks.py and resume.py have them.
-ONLY_ALL = ("space, wall",)
+# Those that a short test leaves out: ranks.py and resume.py have them, and others
+# here have the same state and the same exchange.
+ONLY_ALL = ("space, wall", "yielding", "free field", "divided",
+            "reset, divided", "space", "implicit, bars", "space, dashpots",
+            "construction", "liner", "implicit, liner",
+            "implicit, liner, slipping", "dashpots", "pattern, named",
+            "implicit, water", "implicit, turning", "implicit, mixed",
+            "implicit, quadratic")
 TOLERANCE = on_ranks.TOLERANCE
 # Of the peak, where an equilibrium is found to 'Force ratio'; of the wall's
 # reaction, which differs by 4e-9 on 1 and 2 ranks without a stop, too.
