@@ -211,7 +211,7 @@ namespace quoin
     std::vector<dealii::Tensor<1, dim>> waves; /**< forces of this step [N] */
     std::vector<dealii::Tensor<1, dim>> pull;  /**< of all that acts [N] */
     std::vector<SharedNode> shared;
-    /** Of each node, with those of other boundaries. */
+    /** Drag of each node, with that of the dashpots of other boundaries. */
     std::vector<typename Dashpot<dim>::Damping> damping;
     /** Null: waves come along the normal. */
     std::unique_ptr<const PlaneWaveForces> plane_waves;

@@ -31,7 +31,8 @@ namespace quoin
       std::array<unsigned int, 2> blocks; /**< none: outside, or a void */
     };
 
-    /** With what 'Sides' and the sets of @p rock are called. */
+    /** Borders have the names of the sides, joint sets and bodies of @p rock.
+     */
     BlockBorders(const RockBoxParameters &rock, const RockBox &box);
 
     const std::vector<dealii::Point<3>> &vertices() const
@@ -56,8 +57,8 @@ namespace quoin
     {
       return groups[block];
     }
-    /** Of each block: the borders of each of its closed surfaces, the outer one
-        first. */
+    /** Lists the borders of each closed surface of each block, the outer
+        surface of a block first. */
     std::vector<std::vector<std::vector<unsigned int>>> shells() const;
     double shortest_edge() const; /**< [m] */
 
