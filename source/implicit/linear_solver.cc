@@ -64,26 +64,48 @@ namespace quoin
   }
 
   template <int dim>
-  bool LinearSolver<dim>::factorise()
+  const Epetra_CrsMatrix &LinearSolver<dim>::whole_matrix()
   {
     const Epetra_CrsMatrix &rows = matrix->trilinos_matrix();
-    if (rows.Comm().NumProc() > 1)
-      return false;
+    if (rows.Comm().NumProc() == 1)
+      return rows;
+    if (!on_first)
+    {
+      const int n = rows.NumGlobalRows();
+      const Epetra_Map all(n, rows.Comm().MyPID() == 0 ? n : 0, 0, rows.Comm());
+      to_first = std::make_unique<Epetra_Import>(all, rows.RowMap());
+      on_first = std::make_unique<Epetra_CrsMatrix>(Copy, all, 0);
+    }
+    on_first->Import(rows, *to_first, Insert);
+    if (!on_first->Filled())
+      on_first->FillComplete();
+    return *on_first;
+  }
+
+  template <int dim>
+  bool LinearSolver<dim>::factorise()
+  {
+    const Epetra_CrsMatrix &rows = whole_matrix();
+    const bool is_first          = rows.Comm().MyPID() == 0;
     int *starts, *columns;
     double *values;
-    if (rows.ExtractCrsDataPointers(starts, columns, values) != 0)
-      return false;
+    int success = !is_first
+                  || rows.ExtractCrsDataPointers(starts, columns, values) == 0;
     if (!is_analysed)
     {
       is_analysed = true;
       has_pattern
-          = rows.Comm().NumProc() == 1 && rows.RowMap().SameAs(rows.ColMap())
-            && sparse_factors.analyse(rows.NumMyRows(), starts, columns);
+          = rows.RowMap().SameAs(rows.ColMap()) && success
+            && (!is_first
+                || sparse_factors.analyse(rows.NumMyRows(), starts, columns));
       remainder.reinit(dof_map.owned(), model.nodes().communicator());
       refinement = remainder;
     }
     factors.reset();
-    return has_pattern && sparse_factors.factorise(values);
+    if (is_first)
+      success = success && has_pattern && sparse_factors.factorise(values);
+    rows.Comm().Broadcast(&success, 1, 0);
+    return success;
   }
 
   template <int dim>
@@ -104,16 +126,33 @@ namespace quoin
   }
 
   template <int dim>
+  void LinearSolver<dim>::apply_factors(const Vector &right_hand_side,
+                                        Vector &solution)
+  {
+    if (!on_first)
+    {
+      sparse_factors.solve(right_hand_side.begin(), solution.begin());
+      return;
+    }
+    Epetra_MultiVector known(on_first->RowMap(), 1, false),
+        found(on_first->RowMap(), 1, false);
+    known.Import(right_hand_side.trilinos_vector(), *to_first, Insert);
+    if (known.MyLength() > 0)
+      sparse_factors.solve(known[0], found[0]);
+    solution.trilinos_vector().Export(found, *to_first, Insert);
+  }
+
+  template <int dim>
   bool LinearSolver<dim>::solve_by_factors(const Vector &right_hand_side,
                                            Vector &solution)
   {
     const double scale = right_hand_side.l2_norm();
-    sparse_factors.solve(right_hand_side.begin(), solution.begin());
+    apply_factors(right_hand_side, solution);
     double left = matrix->residual(remainder, solution, right_hand_side);
     for (unsigned int i = 0; i < most_refinements && left > accepted * scale;
          ++i)
     {
-      sparse_factors.solve(remainder.begin(), refinement.begin());
+      apply_factors(remainder, refinement);
       solution += refinement;
       left = matrix->residual(remainder, solution, right_hand_side);
     }

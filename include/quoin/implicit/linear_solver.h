@@ -12,6 +12,8 @@
 #include <deal.II/lac/trilinos_solver.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Import.h>
 #include <Epetra_MultiVector.h>
 
 #include <memory>
@@ -21,9 +23,10 @@ namespace quoin
   /**
    * Solves with the stiffness matrix, by LU factors or by GMRES that is
    * preconditioned by smoothed aggregation multigrid. Multigrid gets the rigid
-   * body modes as near null space. One rank has SparseFactors, whose
-   * solutions are checked; several ranks, and matrices that it does not solve,
-   * have the factors of KLU, which exchanges any rows.
+   * body modes as near null space. The factors are SparseFactors, of several
+   * ranks the first has those of the whole matrix, and solutions are checked;
+   * matrices that it does not solve have the factors of KLU, which exchanges
+   * any rows.
    */
   template <int dim>
   class LinearSolver
@@ -56,8 +59,12 @@ namespace quoin
                             const Configuration<dim> &configuration);
     /** Factorises by SparseFactors; returns success. */
     bool factorise();
+    /** The matrix, of several ranks its copy on the first. */
+    const Epetra_CrsMatrix &whole_matrix();
     /** Factorises by KLU; returns success. */
     bool factorise_with_pivoting();
+    /** Sets @p solution to what SparseFactors find. */
+    void apply_factors(const Vector &right_hand_side, Vector &solution);
     /** Solves by SparseFactors; false: the residual stays too large. */
     bool solve_by_factors(const Vector &right_hand_side, Vector &solution);
 
@@ -67,7 +74,10 @@ namespace quoin
     const Matrix *matrix = nullptr;
     dealii::SolverControl control;
     bool is_analysed = false, has_pattern = false;
-    SparseFactors sparse_factors;
+    SparseFactors sparse_factors; /**< of several ranks on the first alone */
+    /** Of several ranks: rows to the first one, and the matrix there. */
+    std::unique_ptr<Epetra_Import> to_first;
+    std::unique_ptr<Epetra_CrsMatrix> on_first;
     Vector remainder, refinement;
     /** Factors of KLU; null: sparse_factors are those of the matrix. */
     std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
