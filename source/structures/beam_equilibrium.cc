@@ -6,9 +6,11 @@
 #include <quoin/structures/beam_equilibrium.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseLU>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace quoin
@@ -261,6 +263,31 @@ namespace quoin
       return sum;
     }
 
+    /** Factors of the stiffness of nodes, in which each knows its neighbours
+        alone. */
+    class StiffnessFactors
+    {
+    public:
+      explicit StiffnessFactors(const Eigen::MatrixXd &stiffness)
+      {
+        factors.compute(stiffness.sparseView());
+      }
+
+      /** The displacements under the columns of @p forces; no numbers if the
+          stiffness is singular. */
+      Eigen::MatrixXd solve(const Eigen::MatrixXd &forces) const
+      {
+        if (factors.info() != Eigen::Success)
+          return Eigen::MatrixXd::Constant(
+              forces.rows(), forces.cols(),
+              std::numeric_limits<double>::quiet_NaN());
+        return factors.solve(forces);
+      }
+
+    private:
+      Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
+    };
+
     /** Stiffness of blocks at the interface, see BeamReaction, with the
         stiffness @p own of the nodes. */
     Eigen::MatrixXd condensed(const Beam &beam, const Eigen::MatrixXd &own,
@@ -293,7 +320,8 @@ namespace quoin
           forces.col(i).setZero();
         }
       // The nodes of the beam follow the points.
-      result -= forces * own.partialPivLu().solve(coupling);
+      const Eigen::SparseMatrix<double> rows = forces.sparseView();
+      result -= rows * StiffnessFactors(own).solve(coupling);
       return result;
     }
   } // namespace
@@ -353,9 +381,9 @@ namespace quoin
     {
       if (iteration == most_iterations || !std::isfinite(unbalanced))
         return false;
-      const Eigen::VectorXd step = stiffness(beam, state, before, now, points)
-                                       .partialPivLu()
-                                       .solve(residual);
+      const Eigen::VectorXd step
+          = StiffnessFactors(stiffness(beam, state, before, now, points))
+                .solve(residual);
       if (!step.allFinite())
         return false;
       double share = 1., reached = evaluate(u + step);
