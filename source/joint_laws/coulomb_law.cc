@@ -104,7 +104,7 @@ namespace quoin
 
   std::string CoulombLaw::text() const
   {
-    if (!can_fail())
+    if (!behaviour().fails)
       return "elastic";
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     if (is_no_tension)
@@ -118,7 +118,7 @@ namespace quoin
   {
     const double apex = peak.cohesion / peak.friction;
     // The failed joint keeps its tension, but bears no shear beyond its apex.
-    if (!can_fail() || !(peak.tension > (1. + 1e-6) * apex))
+    if (!behaviour().fails || !(peak.tension > (1. + 1e-6) * apex))
       return "";
     return text_of("'Tensile strength = ", peak.tension,
                    "' Pa is above cohesion / tan(friction angle), ", apex,

@@ -18,7 +18,8 @@ namespace quoin
 
   bool can_fail(const JointLaw &law)
   {
-    return std::visit([](const auto &own) { return own.can_fail(); }, law);
+    return std::visit([](const auto &own) { return own.behaviour().fails; },
+                      law);
   }
 
   double slip_of_peak(const JointLaw &law)
@@ -28,7 +29,8 @@ namespace quoin
 
   bool can_dilate(const JointLaw &law)
   {
-    return std::visit([](const auto &own) { return own.can_dilate(); }, law);
+    return std::visit([](const auto &own) { return own.behaviour().dilates; },
+                      law);
   }
 
   std::string kind_of_law(const JointLaw &law)

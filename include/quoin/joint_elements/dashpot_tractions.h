@@ -109,7 +109,7 @@ namespace quoin
     {
       // Rock joints, which stiffen, have no strength to break.
       if (point.state == JointState::intact && !Law::stiffens
-          && law.loses_strength())
+          && law.behaviour().loses_strength)
         ahead = within_strength<dim>(
             law, point, gap, { opening - gap.normal, slip - gap.shear });
       else

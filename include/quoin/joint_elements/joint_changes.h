@@ -36,7 +36,7 @@ namespace quoin
                   std::array<double, 2> &n)
   {
     n[0] += law.lost_its_bond(point) ? share : 0.;
-    n[1] += law.has_bond() ? share : 0.;
+    n[1] += law.behaviour().has_bond ? share : 0.;
   }
   /** The numbers of count_bond() over the points of all ranks. */
   std::array<double, 2> n_without_bond(const MatchedJoints &joints,

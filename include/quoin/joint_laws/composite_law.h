@@ -118,7 +118,7 @@ namespace quoin
    * work = change of stored_energy() + total() to rounding. An increment can
    * be negative only if the step jumps across the elastic range.
    */
-  struct CompositeLaw : JointLawDefaults
+  struct CompositeLaw : LinearSprings
   {
     template <int dim>
     using Point = CompositePoint<dim>;
@@ -131,9 +131,6 @@ namespace quoin
     static constexpr bool bridges = true;
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
-
-    double normal_stiffness = 0.; /**< kn [Pa/m] */
-    double shear_stiffness  = 0.; /**< ks [Pa/m] */
 
     double tension           = 0.;       /**< ft0 [Pa] */
     double tension_energy    = infinity; /**< GfI [J/m^2] */
@@ -166,30 +163,12 @@ namespace quoin
     CompositeLaw reduced(double factor) const;
 
     /** The cap does not count: neither tension nor slip takes any of it. */
-    bool loses_strength() const
+    JointBehaviour behaviour() const
     {
-      return tension > 0. || cohesion > 0. || friction != residual_friction;
-    }
-
-    /** kn and ks [Pa/m] at the normal traction @p sigma [Pa], and at most. */
-    std::array<double, 2> stiffness_at(double /*sigma*/) const
-    {
-      return { normal_stiffness, shear_stiffness };
-    }
-    std::array<double, 2> largest_stiffness() const
-    {
-      return { normal_stiffness, shear_stiffness };
-    }
-
-    /** Sets @p point to tractions [Pa] at rest, at zero opening and slip. */
-    template <int dim>
-    void initialise(CompositePoint<dim> &point, const double normal,
-                    const Slip<dim> &shear) const
-    {
-      point.normal_traction = normal;
-      point.shear_traction  = shear;
-      point.plastic_opening = -normal / normal_stiffness;
-      point.plastic_slip    = -shear / shear_stiffness;
+      JointBehaviour result;
+      result.loses_strength
+          = tension > 0. || cohesion > 0. || friction != residual_friction;
+      return result;
     }
 
     /** New contacts have no bond, but an intact cap. */
@@ -230,29 +209,6 @@ namespace quoin
     CompositeDissipation update_failing(CompositePoint<dim> &point,
                                         double opening,
                                         const Slip<dim> &slip) const;
-
-    /** Recoverable energy per area [J/m^2]. */
-    template <int dim>
-    double stored_energy(const CompositePoint<dim> &point,
-                         double /*opening*/ = 0.) const
-    {
-      return 0.5 * point.normal_traction * point.normal_traction
-                 / normal_stiffness
-             + 0.5 * point.shear_traction * point.shear_traction
-                   / shear_stiffness;
-    }
-
-    /** See CoulombLaw. */
-    template <int dim>
-    double carried_energy(const CompositePoint<dim> &before,
-                          const CompositePoint<dim> &after) const
-    {
-      return 0.5
-             * (before.normal_traction * after.normal_traction
-                    / normal_stiffness
-                + before.shear_traction * after.shear_traction
-                      / shear_stiffness);
-    }
 
     /** Whether the tractions of @p point, if it is intact, are admissible,
        without regard to the cap. */

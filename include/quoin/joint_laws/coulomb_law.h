@@ -4,7 +4,7 @@
 #ifndef quoin_joint_laws_coulomb_law_h
 #define quoin_joint_laws_coulomb_law_h
 
-#include <quoin/joints/joint_point.h>
+#include <quoin/joint_laws/linear_springs.h>
 
 #include <algorithm>
 #include <array>
@@ -39,8 +39,7 @@ namespace quoin
    * The brittle Coulomb law with tension cut-off and dilation
    * (@cite ZhugeHunt2003, Eqs. 5-9).
    *
-   * sigma = kn (u_n - w), tau = ks (u_s - p) with opening u_n, slip u_s,
-   * plastic opening w and plastic slip p. An intact joint breaks when sigma
+   * Its tractions are those of LinearSprings. An intact joint breaks when sigma
    * exceeds the tensile strength or |tau| exceeds c - sigma tan(phi); from
    * then on its strength is the residual one (by UDEC's rule zero cohesion
    * and tension unless given). While it slips, dw = +-tan(psi) |dp|, positive
@@ -54,7 +53,7 @@ namespace quoin
    * residual strength equal to the peak; of their equation we drop the
    * cohesive shear of an open joint.
    */
-  struct CoulombLaw : JointLawDefaults
+  struct CoulombLaw : LinearSprings
   {
     template <int dim>
     using Point = JointPoint<dim>;
@@ -70,8 +69,6 @@ namespace quoin
     };
     static constexpr bool is_brittle = true;
 
-    double normal_stiffness = 0.; /**< kn [Pa/m] */
-    double shear_stiffness  = 0.; /**< ks [Pa/m] */
     JointStrength peak;
     JointStrength residual;
     double dilation = 0.; /**< tan(psi) */
@@ -91,56 +88,26 @@ namespace quoin
         above the friction that is left. */
     CoulombLaw reduced(double factor) const;
 
-    bool can_fail() const
+    JointBehaviour behaviour() const
     {
-      return std::isfinite(peak.tension);
-    }
-    bool loses_strength() const
-    {
-      return peak.cohesion != residual.cohesion
-             || peak.friction != residual.friction
-             || peak.tension != residual.tension;
-    }
-    bool has_bond() const
-    {
-      return can_fail() && peak.cohesion > residual.cohesion;
+      const bool fails = std::isfinite(peak.tension);
+      return { fails, dilation != 0.,
+               peak.cohesion != residual.cohesion
+                   || peak.friction != residual.friction
+                   || peak.tension != residual.tension,
+               fails && peak.cohesion > residual.cohesion };
     }
     template <int dim>
     bool lost_its_bond(const JointPoint<dim> &point) const
     {
-      return has_bond() && point.state != JointState::intact
+      return behaviour().has_bond && point.state != JointState::intact
              && point.normal_traction < 0.
              && peak.bears(point.normal_traction,
                            magnitude(point.shear_traction));
     }
-    bool can_dilate() const
-    {
-      return dilation != 0.;
-    }
     std::string no_new_contacts() const
     {
-      return can_fail() ? "" : "which would then hold together for good";
-    }
-
-    /** kn and ks [Pa/m] at the normal traction @p sigma [Pa], and at most. */
-    std::array<double, 2> stiffness_at(double /*sigma*/) const
-    {
-      return { normal_stiffness, shear_stiffness };
-    }
-    std::array<double, 2> largest_stiffness() const
-    {
-      return { normal_stiffness, shear_stiffness };
-    }
-
-    /** Sets @p point to tractions [Pa] at rest, at zero opening and slip. */
-    template <int dim>
-    void initialise(JointPoint<dim> &point, const double normal,
-                    const Slip<dim> &shear) const
-    {
-      point.normal_traction = normal;
-      point.shear_traction  = shear;
-      point.plastic_opening = -normal / normal_stiffness;
-      point.plastic_slip    = -shear / shear_stiffness;
+      return behaviour().fails ? "" : "which would then hold together for good";
     }
 
     /**
@@ -210,19 +177,6 @@ namespace quoin
       return normal
              + 0.5 * point.shear_traction * point.shear_traction
                    / shear_stiffness;
-    }
-
-    /** Energy per area [J/m^2] that a change of area takes along between two
-        updates: of springs what is left of their trapezoidal work. */
-    template <int dim>
-    double carried_energy(const JointPoint<dim> &before,
-                          const JointPoint<dim> &after) const
-    {
-      return 0.5
-             * (before.normal_traction * after.normal_traction
-                    / normal_stiffness
-                + before.shear_traction * after.shear_traction
-                      / shear_stiffness);
     }
 
     /** Whether the tractions of @p point, if it is intact, are admissible. */
@@ -407,7 +361,7 @@ namespace quoin
   template <int dim>
   inline double CoulombLaw::excess(const JointPoint<dim> &point) const
   {
-    if (point.state != JointState::intact || !can_fail())
+    if (point.state != JointState::intact || !behaviour().fails)
       return 0.;
     const double sigma = point.normal_traction;
     const double tau   = magnitude(point.shear_traction);

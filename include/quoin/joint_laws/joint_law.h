@@ -22,7 +22,8 @@ namespace quoin
    * knows of them; in the parameter file they stand in its order.
    *
    * A law derives from JointLawDefaults, which has what it may leave as it is,
-   * and has
+   * or from LinearSprings, which has the energies and stiffnesses of springs
+   * of constant stiffness, too, and has
    *
    * - names, the words for it in the parameter file, and kind: laws of one
    *   kind remember the same of a joint, so that stages may exchange them;

@@ -4,7 +4,7 @@
 #ifndef quoin_joint_laws_slip_weakening_law_h
 #define quoin_joint_laws_slip_weakening_law_h
 
-#include <quoin/joints/joint_point.h>
+#include <quoin/joint_laws/linear_springs.h>
 
 #include <algorithm>
 #include <array>
@@ -42,7 +42,7 @@ namespace quoin
    * Unless ks D_c is above what the strength loses the joint drops by itself
    * at failure, however small the step.
    */
-  struct SlipWeakeningLaw : JointLawDefaults
+  struct SlipWeakeningLaw : LinearSprings
   {
     template <int dim>
     using Point = SlipWeakeningPoint<dim>;
@@ -53,8 +53,6 @@ namespace quoin
                 "cohesion and friction that decrease linearly with slip, "
                 "without tension, for faults" } } };
 
-    double normal_stiffness  = 0.; /**< kn [Pa/m] */
-    double shear_stiffness   = 0.; /**< ks [Pa/m] */
     double cohesion          = 0.; /**< c_0 [Pa] */
     double residual_cohesion = 0.; /**< c_r [Pa] */
     double friction          = 0.; /**< mu_0 = tan(phi) [-] */
@@ -74,19 +72,11 @@ namespace quoin
     /** Warning about a strength that drops abruptly without pressure. */
     std::string warning() const;
 
-    bool can_dilate() const
+    JointBehaviour behaviour() const
     {
-      return false;
-    }
-
-    /** kn and ks [Pa/m] at the normal traction @p sigma [Pa], and at most. */
-    std::array<double, 2> stiffness_at(double /*sigma*/) const
-    {
-      return { normal_stiffness, shear_stiffness };
-    }
-    std::array<double, 2> largest_stiffness() const
-    {
-      return { normal_stiffness, shear_stiffness };
+      JointBehaviour result;
+      result.dilates = false;
+      return result;
     }
 
     /** Strength [Pa] after the slip D = @p slipped [m] at @p sigma [Pa]. */
@@ -101,10 +91,8 @@ namespace quoin
     void initialise(SlipWeakeningPoint<dim> &point, const double normal,
                     const Slip<dim> &shear) const
     {
-      point.normal_traction = std::min(normal, 0.);
-      point.shear_traction  = normal < 0. ? shear : Slip<dim>();
-      point.plastic_opening = -point.normal_traction / normal_stiffness;
-      point.plastic_slip    = -point.shear_traction / shear_stiffness;
+      LinearSprings::initialise(point, std::min(normal, 0.),
+                                normal < 0. ? shear : Slip<dim>());
     }
 
     /** Whether the tractions of @p point are admissible. */
@@ -161,26 +149,6 @@ namespace quoin
       return update_elastic(point, opening, slip)
                  ? JointDissipation()
                  : update_failing(point, opening, slip);
-    }
-
-    /** Recoverable energy per area [J/m^2]. */
-    template <int dim>
-    double stored_energy(const SlipWeakeningPoint<dim> &point,
-                         double /*opening*/ = 0.) const
-    {
-      return carried_energy(point, point);
-    }
-
-    /** See CoulombLaw. */
-    template <int dim>
-    double carried_energy(const SlipWeakeningPoint<dim> &before,
-                          const SlipWeakeningPoint<dim> &after) const
-    {
-      return 0.5
-             * (before.normal_traction * after.normal_traction
-                    / normal_stiffness
-                + before.shear_traction * after.shear_traction
-                      / shear_stiffness);
     }
 
   private:

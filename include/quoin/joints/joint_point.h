@@ -151,6 +151,15 @@ namespace quoin
   template <typename Law, int lanes, int dim>
   class LawLanes;
 
+  /** What a joint of a law does. */
+  struct JointBehaviour
+  {
+    bool fails          = true;  /**< it may open or slip */
+    bool dilates        = true;  /**< slip may open it */
+    bool loses_strength = true;  /**< failure takes strength from it */
+    bool has_bond       = false; /**< it has cohesion, which failure takes */
+  };
+
   /** Common defaults of joint laws, which a law hides where it differs. See
       joint_law.h. */
   struct JointLawDefaults
@@ -174,25 +183,9 @@ namespace quoin
     {
       return "";
     }
-    /** Whether the joint may open or slip. */
-    bool can_fail() const
+    JointBehaviour behaviour() const
     {
-      return true;
-    }
-    /** Whether slip may open the joint. */
-    bool can_dilate() const
-    {
-      return true;
-    }
-    /** Whether failure takes any strength from the joint. */
-    bool loses_strength() const
-    {
-      return true;
-    }
-    /** Whether the joint has cohesion that failure takes. */
-    bool has_bond() const
-    {
-      return false;
+      return {};
     }
     /** Whether @p point, which is closed, has lost its cohesion although it
         would bear its tractions with it. */

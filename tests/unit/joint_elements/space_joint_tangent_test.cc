@@ -114,8 +114,7 @@ TEST(SpaceJointTangent, ForcesAreThoseOfExplicitSteps)
 {
   for (const JointLaw &law : all_laws())
   {
-    if (std::holds_alternative<CoulombLaw>(law)
-        && std::get<CoulombLaw>(law).can_fail())
+    if (std::holds_alternative<CoulombLaw>(law) && can_fail(law))
       continue; // breaks where it is told to
     Stack stack(law);
     for (unsigned int step = 0; step < 20; ++step)

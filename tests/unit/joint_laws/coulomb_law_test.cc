@@ -142,7 +142,7 @@ TEST(CoulombLaw, TensionFailureTakesCohesionToo)
 TEST(CoulombLaw, KnowsThatABondIsLostWhichWouldHold)
 {
   const CoulombLaw law = brittle();
-  EXPECT_TRUE(law.has_bond());
+  EXPECT_TRUE(law.behaviour().has_bond);
   JointPoint<2> point = fresh();
   law.update(point, -1e6 / kn, 0.);
   EXPECT_FALSE(law.lost_its_bond(point)); // intact
@@ -152,7 +152,7 @@ TEST(CoulombLaw, KnowsThatABondIsLostWhichWouldHold)
   EXPECT_TRUE(law.lost_its_bond(point));
   CoulombLaw ductile = law;
   ductile.residual   = ductile.peak;
-  EXPECT_FALSE(ductile.has_bond());
+  EXPECT_FALSE(ductile.behaviour().has_bond);
   EXPECT_FALSE(ductile.lost_its_bond(point));
 }
 
