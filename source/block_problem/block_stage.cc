@@ -121,7 +121,7 @@ namespace quoin
     outputs.begin_stage(stage.reset, state);
     context.note_rounding();
     for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
-      if (load->has_bared_sides(state))
+      if (load->pressed_joints().have_bared_sides(state))
         log.warning("stage ", stage.name, ": the load ", load->name(),
                     " is a pressure in joints, and goes on to act on blocks "
                     "whose neighbour across the joint is excavated or not "

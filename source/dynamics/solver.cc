@@ -71,7 +71,8 @@ namespace quoin
     for (const NodalLoad<dim> &load : all.nodal)
       if (names_load(stage, load.name()))
       {
-        load.refuse_bared_sides(stage.name, state);
+        load.pressed_joints().refuse_bared_sides(load.name(), stage.name,
+                                                 state);
         acting.nodal.push_back(&load);
       }
 
@@ -108,7 +109,7 @@ namespace quoin
     };
     double ramp = 0.;
     for (NodalLoad<dim> &load : all.nodal)
-      if (load.is_weight())
+      if (load.traits().is_gravity)
       {
         load.begin_stage(begins(load.name()), automatic);
         ramp = std::max(ramp, load.ramp());
@@ -121,9 +122,9 @@ namespace quoin
               ? ramp
               : 0.;
     for (NodalLoad<dim> &load : all.nodal)
-      if (!load.is_weight())
+      if (!load.traits().is_gravity)
         load.begin_stage(begins(load.name()),
-                         load.is_in_joints() ? ramp : with_it);
+                         load.pressed_joints().exist() ? ramp : with_it);
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->grow_forces(begins(constraint->name()) ? with_it : 0.);
   }

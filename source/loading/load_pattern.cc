@@ -23,7 +23,7 @@ namespace quoin
     template <int dim>
     void refuse_change(const NodalLoad<dim> &load, const StageParameters &stage)
     {
-      if (load.follows_cracks())
+      if (load.traits().follows_crack)
         throw InputError("section 'Stages/" + stage.name
                          + "': 'Load pattern' names '" + load.name()
                          + "', an uplift that changes with the crack, but the "

@@ -182,40 +182,21 @@ namespace quoin
     }
   } // namespace
 
-  namespace
-  {
-    /** Whether a joint of any rank is on one of @p curves. Collective. */
-    template <int dim>
-    bool has_joints(const NodeMap<dim> &node_map,
-                    const std::vector<std::string> &curves)
-    {
-      const auto &joints = node_map.faces().joints;
-      const bool found   = std::any_of(
-            joints.begin(), joints.end(),
-            [&](const JointNodes<dim> &joint)
-            {
-            const auto &name = node_map.table().face_names[joint.name];
-            return std::count(curves.begin(), curves.end(), name) > 0;
-          });
-      return dealii::Utilities::MPI::max(unsigned(found),
-                                         node_map.communicator())
-             > 0;
-    }
-  } // namespace
-
   template <int dim>
   NodalLoad<dim>::NodalLoad(const LoadParameters &parameters,
                             const NodeMap<dim> &node_map,
                             const std::vector<double> &mass,
                             const Thickness &thickness)
-    : load_name(parameters.name),
-      is_gravity(parameters.type == LoadType::gravity),
-      acts_everywhere(is_gravity && parameters.groups.empty()
-                      && !parameters.distribution),
+    : load_name(parameters.name), own_traits{ parameters.type
+                                                  == LoadType::gravity,
+                                              parameters.type
+                                                      == LoadType::gravity
+                                                  && parameters.groups.empty()
+                                                  && !parameters.distribution },
       components(parameters.components), pressure(parameters.pressure),
-      given_ramp(is_gravity ? parameters.ramp_duration : -1.)
+      given_ramp(own_traits.is_gravity ? parameters.ramp_duration : -1.)
   {
-    if (is_gravity)
+    if (own_traits.is_gravity)
     {
       nodes = nodes_of_groups(
           node_map, groups_of_names(node_map, parameters.groups, load_name),
@@ -228,21 +209,8 @@ namespace quoin
     const auto faces
         = faces_of_curves(node_map, parameters.boundaries, parameters.name,
                           parameters.is_pressure_alone());
-    if (parameters.is_pressure_alone()
-        && has_joints(node_map, parameters.boundaries))
-    {
-      acts_in_joints = true;
-      communicator   = node_map.communicator();
-      for (const JointNodes<dim> &joint : node_map.faces().joints)
-        if (is_among(node_map.table().face_names[joint.name],
-                     parameters.boundaries))
-        {
-          pressed_joints.push_back({ node_map.block_of_node(joint.lower[0]),
-                                     node_map.block_of_node(joint.upper[0]) });
-          if (thickness[joint.groups[0]] != thickness[joint.groups[1]])
-            uneven_joints.push_back(pressed_joints.back());
-        }
-    }
+    if (parameters.is_pressure_alone())
+      own_joints = PressedJoints(node_map, parameters.boundaries, thickness);
     if (parameters.differs_by_place())
     {
       make_field(parameters, node_map, faces, thickness);
@@ -277,35 +245,6 @@ namespace quoin
       if (pressure.quantity != LoadQuantity::free)
         inward.push_back(inward_area[node]);
     }
-  }
-
-  template <int dim>
-  bool NodalLoad<dim>::has_bared_sides(const State<dim> &state,
-                                       const bool uneven) const
-  {
-    if (!acts_in_joints)
-      return false;
-    const auto &joints  = uneven ? uneven_joints : pressed_joints;
-    const bool is_bared = std::any_of(
-        joints.begin(), joints.end(),
-        [&](const auto &blocks)
-        { return state.is_absent(blocks[0]) != state.is_absent(blocks[1]); });
-    return dealii::Utilities::MPI::max(unsigned(is_bared), communicator) > 0;
-  }
-
-  template <int dim>
-  void NodalLoad<dim>::refuse_bared_sides(const std::string &name,
-                                          const State<dim> &state) const
-  {
-    if (has_bared_sides(state, true))
-      throw InputError("section 'Loads/" + load_name
-                       + "': 'Pressure' acts in a joint between groups of "
-                         "different 'Thickness', over the smaller one, but in "
-                         "the stage '"
-                       + name
-                       + "' the block on one side of it is excavated or not "
-                         "there yet. Give both groups the same 'Thickness', or "
-                         "leave this load out of the stage.");
   }
 
   template <int dim>
@@ -445,7 +384,7 @@ namespace quoin
   template <int dim>
   void NodalLoad<dim>::set_mass(const std::vector<double> &mass)
   {
-    if (!is_gravity)
+    if (!own_traits.is_gravity)
       return;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       weights[i]
@@ -487,7 +426,7 @@ namespace quoin
   auto NodalLoad<dim>::by_nodes(const Loop &loop) const
   {
     // Nodes of gravity ascend.
-    if (is_gravity && !nodes.empty()
+    if (own_traits.is_gravity && !nodes.empty()
         && nodes.back() - nodes.front() + 1 == nodes.size())
       return loop([first = std::size_t(nodes.front())](const std::size_t i)
                   { return first + i; });

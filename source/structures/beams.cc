@@ -180,7 +180,7 @@ namespace quoin
     gravity_loads.clear();
     std::copy_if(loads.begin(), loads.end(), std::back_inserter(gravity_loads),
                  [](const NodalLoad<2> *load)
-                 { return load->is_of_everything(); });
+                 { return load->traits().is_everywhere; });
   }
 
   dealii::Tensor<1, 2> Beams::gravity(const TimePoint &time) const

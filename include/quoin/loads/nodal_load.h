@@ -7,6 +7,7 @@
 #include <quoin/base/thickness.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/loads/load_parameters.h>
+#include <quoin/loads/pressed_joints.h>
 #include <quoin/mesh/global_geometry.h>
 
 #include <array>
@@ -18,6 +19,16 @@ namespace quoin
   template <int dim>
   class TractionField;
   class JointCrack;
+
+  /** What a NodalLoad is in all stages. */
+  struct NodalLoadTraits
+  {
+    bool is_gravity = false;
+    /** Whether it is gravity that is the same everywhere, in all groups. */
+    bool is_everywhere = false;
+    /** Whether it is an uplift that changes with the crack of a joint. */
+    bool follows_crack = false;
+  };
 
   /**
    * A traction or gravity: forces a(t) w_i on nodes i with fixed weights w_i,
@@ -45,7 +56,8 @@ namespace quoin
         does not. */
     void set_crack(std::shared_ptr<const JointCrack> opening)
     {
-      crack = std::move(opening);
+      crack                    = std::move(opening);
+      own_traits.follows_crack = crack != nullptr;
     }
     /** Takes the crack of @p state. An uplift that begins in the stage, and
         acts by the share @p released while forces out of balance are released,
@@ -61,11 +73,6 @@ namespace quoin
     {
       find_crack(state);
     }
-    bool follows_cracks() const
-    {
-      return crack != nullptr;
-    }
-
     /** A load that @p begins in the stage grows by half a cosine, over a
         duration that is given or @p automatic [s]; 0: it is there at once. */
     void begin_stage(const bool begins, const double automatic)
@@ -77,24 +84,15 @@ namespace quoin
     {
       return ramp_duration;
     }
-    bool is_weight() const
+    const NodalLoadTraits &traits() const
     {
-      return is_gravity;
+      return own_traits;
     }
-    /** Whether it is a pressure in joints. */
-    bool is_in_joints() const
+    /** Joints in which its pressure acts. */
+    const PressedJoints &pressed_joints() const
     {
-      return acts_in_joints;
+      return own_joints;
     }
-    /** Whether a joint in which the pressure acts has a block on one side alone
-        in @p state; @p uneven: one between blocks of different thickness.
-        Collective. */
-    bool has_bared_sides(const State<dim> &state, bool uneven = false) const;
-    /** Throws an InputError if a joint between blocks of different thickness,
-        over the smaller of which the pressure acts, has one of them alone in
-        the stage @p name. Collective. */
-    void refuse_bared_sides(const std::string &name,
-                            const State<dim> &state) const;
 
     const char *kind() const override
     {
@@ -116,11 +114,6 @@ namespace quoin
     const std::string &name() const
     {
       return load_name;
-    }
-    /** Whether it is gravity that is the same everywhere, in all groups. */
-    bool is_of_everything() const
-    {
-      return acts_everywhere;
     }
 
   private:
@@ -164,16 +157,12 @@ namespace quoin
         1. */
     std::vector<double> node_factors;
     std::string load_name;
-    bool is_gravity, acts_everywhere;
+    NodalLoadTraits own_traits;
     std::array<LoadComponent, 3> components;
     LoadComponent pressure;
     std::vector<unsigned int> nodes;
     std::vector<double> weights;
-    bool acts_in_joints   = false;
-    MPI_Comm communicator = MPI_COMM_SELF;
-    /** Blocks at joints with its pressure, all and those of different
-        thickness. */
-    std::vector<std::array<unsigned int, 2>> pressed_joints, uneven_joints;
+    PressedJoints own_joints;
     double given_ramp; /**< -1: automatic [s] */
     double ramp_duration = 0.;
     std::vector<dealii::Tensor<1, dim>>

@@ -198,14 +198,14 @@ TEST(NodalLoad, PressureInAJointIsInBalanceWhateverTheThicknesses)
     // Where the wall has gone the pressure has one side, of any thickness.
     const NodalLoad<2> even(parameters, nodes, std::vector<double>(8, 1.), 1.);
     State<2> state;
-    EXPECT_FALSE(load.has_bared_sides(state));
+    EXPECT_FALSE(load.pressed_joints().have_bared_sides(state));
     state.block_marks = { 0, block_mark::removed };
-    EXPECT_TRUE(load.has_bared_sides(state));
-    EXPECT_TRUE(load.has_bared_sides(state, true));
-    EXPECT_TRUE(even.has_bared_sides(state));
-    EXPECT_FALSE(even.has_bared_sides(state, true));
+    EXPECT_TRUE(load.pressed_joints().have_bared_sides(state));
+    EXPECT_TRUE(load.pressed_joints().have_bared_sides(state, true));
+    EXPECT_TRUE(even.pressed_joints().have_bared_sides(state));
+    EXPECT_FALSE(even.pressed_joints().have_bared_sides(state, true));
     state.block_marks[0] = block_mark::removed;
-    EXPECT_FALSE(even.has_bared_sides(state));
+    EXPECT_FALSE(even.pressed_joints().have_bared_sides(state));
   }
 }
 
