@@ -9,7 +9,6 @@
 #include <quoin/contact/joint_handover.h>
 #include <quoin/contact_geometry/edge_lanes.h>
 #include <quoin/joint_elements/dashpot_bounds.h>
-#include <quoin/joint_elements/dashpot_tractions.h>
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/operators/archive.h>
 
@@ -87,6 +86,7 @@ namespace quoin
       edges(node_map), parameters(model.parameters), thickness(model.thickness),
       near(node_map, edges, parameters, thickness),
       contact_laws(model.sets, model.materials, model.material_of_group),
+      all_dashpots(near, contact_laws),
       search(node_map, edges, near, contact_laws, parameters.skin),
       n_lanes(model.n_lanes)
   {
@@ -226,8 +226,8 @@ namespace quoin
     const unsigned int n_nodes = near.moving_edges().n_nodes();
     compact_force.assign(n_nodes, dealii::Tensor<1, 2>());
     compact_viscous.assign(n_nodes, dealii::Tensor<1, 2>());
-    if (has_dashpots())
-      bind_dashpots(contacts);
+    if (all_dashpots.act())
+      all_dashpots.bind(contacts, edges);
     deepest_ratio = 0.;
     bound_search  = contacts.n_searches;
   }
@@ -641,7 +641,7 @@ namespace quoin
         }
         for (unsigned int l = 0; l < n && damps; ++l)
           if ((found >> l & 1) && F::at(pack.sigma, l) < 0.)
-            note_dashpot(
+            all_dashpots.add(
                 { pair[l],
                   k,
                   F::at(g.area[k], l),
@@ -676,12 +676,10 @@ namespace quoin
   {
     ContactState &contacts    = state.get<ContactState>();
     const double viscous_beta = forces.viscous ? step.stiffness_damping : 0.;
-    const bool damps          = forces.viscous && has_dashpots();
+    const bool damps          = forces.viscous && all_dashpots.act();
     if (viscous_beta > 0. || damps)
       near.moving_edges().gather_velocities(state.velocity.data());
-    if (damps)
-      dashpots.clear();
-    dashpot_points.clear();
+    all_dashpots.clear();
     if (contacts.marks.empty())
       make_marks(contacts);
     spent.updates += contacts.pairs.size();
@@ -698,7 +696,7 @@ namespace quoin
       add_forces_in_lanes<8>(contacts, viscous_beta, damps, losses);
     }
     if (damps)
-      add_dashpot_forces(contacts);
+      all_dashpots.add_forces(contacts, compact_viscous.data());
     state.energy.friction += losses.friction;
     state.energy.fracture += losses.fracture;
     state.energy.crushing += losses.crushing;
@@ -707,72 +705,6 @@ namespace quoin
     near.moving_edges().scatter(compact_force, forces.force);
     if (viscous_beta > 0. || damps)
       near.moving_edges().scatter(compact_viscous, forces.viscous);
-  }
-
-  bool BlockContacts::has_dashpots() const
-  {
-    return dashpots.knows_blocks()
-           && std::any_of(
-               contact_laws.dampings().begin(), contact_laws.dampings().end(),
-               [](const JointDamping &damping) { return damping.acts(); });
-  }
-
-  void BlockContacts::bind_dashpots(const ContactState &contacts)
-  {
-    std::vector<PairDashpots::Item> items;
-    for (const ContactPair &pair : contacts.pairs)
-    {
-      const ContactEdge &a = edges[pair.lower], &b = edges[pair.upper];
-      items.push_back({ { { a.block, b.block } }, { { a.group, b.group } } });
-    }
-    dashpots.bind(items);
-  }
-
-  void BlockContacts::note_dashpot(const DashpotPoint &point)
-  {
-    dashpots.add_springs(point.pair, near.weights()[point.pair].share,
-                         point.area * point.stiffness[0],
-                         point.area * point.stiffness[1]);
-    dashpot_points.push_back(point);
-  }
-
-  void BlockContacts::add_dashpot_forces(const ContactState &contacts)
-  {
-    const MovingEdges &moving = near.moving_edges();
-    dashpots.sum_over_ranks();
-    for (DashpotPoint &at : dashpot_points)
-    {
-      const ContactPair &pair     = contacts.pairs[at.pair];
-      const JointDamping &damping = contact_laws.dampings()[pair.set];
-      if (!damping.acts() || at.area == 0.)
-        continue;
-      const auto &[a, b]   = near.edges_of(at.pair);
-      const auto &[nx, ny] = at.normal;
-      double v[2];
-      moving.relative_velocity<1>(&a, &b, at.lower, at.upper, v);
-      const JointVector<2> rate
-          = { v[0] * nx + v[1] * ny, v[0] * ny - v[1] * nx };
-      const auto times = dashpots.times(at.pair, damping, at.stiffness);
-      JointVector<2> traction;
-      contact_laws.with_law(pair.set,
-                            [&](const auto &law)
-                            {
-                              traction = dashpot_tractions<2>(
-                                  law, read_point(law, pair.points[at.k]),
-                                  { at.gap[0], at.gap[1] }, rate, times);
-                            });
-      const double sigma = at.area * traction.normal,
-                   tau   = at.area * traction.shear;
-      at.force[0]        = sigma * nx + tau * ny;
-      at.force[1]        = sigma * ny - tau * nx;
-      EdgeLanes<1> edge_a, edge_b;
-      moving.load(&a, edge_a);
-      moving.load(&b, edge_b);
-      TractionLanes<1> forces;
-      PairFunctions<1>::spread(at.lower, at.upper, at.force, forces);
-      moving.add_to_ends(PairFunctions<1>::end_forces(edge_a, edge_b, forces),
-                         &a, &b, 1, compact_viscous.data());
-    }
   }
 
   void BlockContacts::refuse_depth(const State<2> &state,

@@ -264,8 +264,9 @@ namespace quoin
     model.joints().set_blocks(blocks);
     if (block_contacts)
       block_contacts->set_blocks(blocks);
-    stepper.use_dashpots(model.joints().has_dashpots()
-                         || (block_contacts && block_contacts->has_dashpots()));
+    stepper.use_dashpots(
+        model.joints().has_dashpots()
+        || (block_contacts && block_contacts->dashpots().act()));
   }
 
   template <int dim>

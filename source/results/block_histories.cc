@@ -208,11 +208,12 @@ namespace quoin
     for (unsigned int i = 0; i < all.pairs.size(); ++i)
       add(i, [&](ContactEndForces &ends)
           { return contacts->near_pairs().end_forces(all, i, ends); });
-    for (unsigned int d = 0; d < contacts->n_dashpots(); ++d)
-      add(contacts->pair_of_dashpot(d),
+    for (const ContactDashpot &at : contacts->dashpots().all())
+      add(at.pair,
           [&](ContactEndForces &ends)
           {
-            ends = contacts->dashpot_forces(d);
+            ends = contacts->near_pairs().spread(at.pair, at.lower, at.upper,
+                                                 at.force);
             return true;
           });
   }

@@ -5,12 +5,12 @@
 #define quoin_contact_block_contacts_h
 
 #include <quoin/base/lanes.h>
+#include <quoin/contact/contact_dashpots.h>
 #include <quoin/contact/contact_laws.h>
 #include <quoin/contact/pair_search.h>
 #include <quoin/contact_geometry/contact_state.h>
 #include <quoin/contact_geometry/near_pairs.h>
 #include <quoin/joint_elements/matched_joints.h>
-#include <quoin/joint_elements/pair_dashpots.h>
 #include <quoin/joint_laws/joint_parameters.h>
 #include <quoin/operators/force_operator.h>
 
@@ -124,12 +124,9 @@ namespace quoin
     /** Sets what dashpots need, without which there are none. */
     void set_blocks(const DashpotBlocks &blocks)
     {
-      dashpots.set_blocks(blocks);
+      all_dashpots.set_blocks(blocks);
       bound_search = -1;
     }
-    /** Whether a set has dashpots that act. */
-    bool has_dashpots() const;
-
     /** The next update() searches: blocks were removed. Collective. */
     void search_anew(ContactState &contacts)
     {
@@ -157,22 +154,10 @@ namespace quoin
     {
       return near;
     }
-
-    // Dashpots that acted when forces were last added, for histories.
-    unsigned int n_dashpots() const
+    /** Those that acted when forces were last added. */
+    const ContactDashpots &dashpots() const
     {
-      return dashpot_points.size();
-    }
-    /** Place of a dashpot's pair in ContactState::pairs. */
-    unsigned int pair_of_dashpot(const unsigned int dashpot) const
-    {
-      return dashpot_points[dashpot].pair;
-    }
-    /** Its forces on the ends of both edges. */
-    ContactEndForces dashpot_forces(const unsigned int dashpot) const
-    {
-      const DashpotPoint &at = dashpot_points[dashpot];
-      return near.spread(at.pair, at.lower, at.upper, at.force);
+      return all_dashpots;
     }
 
   private:
@@ -198,12 +183,6 @@ namespace quoin
                           const std::vector<unsigned int> &active,
                           ContactState &contacts, double viscous_beta,
                           bool damps, Losses &losses);
-    void bind_dashpots(const ContactState &contacts);
-    struct DashpotPoint;
-    /** Notes a point that presses on its springs. */
-    void note_dashpot(const DashpotPoint &point);
-    /** Adds the forces of the dashpots of noted points. */
-    void add_dashpot_forces(const ContactState &contacts);
     /** Activates pairs that have come into contact; sets active_pairs. */
     template <int lanes>
     void begin_contacts(ContactState &contacts);
@@ -236,6 +215,7 @@ namespace quoin
     const Thickness thickness;
     NearPairs near;
     ContactLaws contact_laws;
+    ContactDashpots all_dashpots;
     PairSearch search;
 
     std::uint64_t bound_search = -1; /**< search whose pairs are at hand */
@@ -245,19 +225,6 @@ namespace quoin
     // Pairs of the present step.
     std::vector<unsigned int> active_pairs, idle_pairs, new_contacts;
     std::vector<std::vector<unsigned int>> pairs_of_set; /**< active ones */
-
-    /** A point that presses, at the last forces. */
-    struct DashpotPoint
-    {
-      unsigned int pair, k;
-      double area, lower, upper; /**< see PairGeometry */
-      std::array<double, 2> normal;
-      std::array<double, 2> gap;       /**< opening and slip [m] */
-      std::array<double, 2> stiffness; /**< per area [Pa/m] */
-      double force[2]{};               /**< on the lower edge [N] */
-    };
-    PairDashpots dashpots;
-    std::vector<DashpotPoint> dashpot_points;
 
     bool search_is_due        = false;
     double deepest_ratio      = 0.;

@@ -183,10 +183,11 @@ TEST(Dashpots, ForcesOfEachAddUpToThoseOfAll)
     for (const double f : blocks.on_upper(force))
       EXPECT_TRUE(!may_meet || f == 0.);
     const BlockContacts &contacts = *blocks.contacts;
-    EXPECT_EQ(contacts.n_dashpots() > 0, may_meet);
-    for (unsigned int d = 0; d < contacts.n_dashpots(); ++d)
+    EXPECT_NE(contacts.dashpots().all().empty(), may_meet);
+    for (const ContactDashpot &at : contacts.dashpots().all())
     {
-      const ContactEndForces ends = contacts.dashpot_forces(d);
+      const ContactEndForces ends
+          = contacts.near_pairs().spread(at.pair, at.lower, at.upper, at.force);
       for (const unsigned int k : { 2, 3 })  // the upper edge is of the upper
         for (unsigned int c = 0; c < 2; ++c) // block
           sum[c] += ends.share * ends.force[k][c];
@@ -194,8 +195,7 @@ TEST(Dashpots, ForcesOfEachAddUpToThoseOfAll)
           (ends.force[0] + ends.force[1] + ends.force[2] + ends.force[3])
               .norm(),
           0., 1e-9);
-      EXPECT_LT(contacts.pair_of_dashpot(d),
-                blocks.state.get<ContactState>().pairs.size());
+      EXPECT_LT(at.pair, blocks.state.get<ContactState>().pairs.size());
     }
     for (unsigned int c = 0; c < 2; ++c)
     {
