@@ -223,7 +223,7 @@ namespace quoin
   void BlockContacts::bind(const ContactState &contacts)
   {
     near.bind(contacts);
-    const unsigned int n_nodes = near.moving_edges().n_nodes();
+    const unsigned int n_nodes = near.moving_edges().positions().size();
     compact_force.assign(n_nodes, dealii::Tensor<1, 2>());
     compact_viscous.assign(n_nodes, dealii::Tensor<1, 2>());
     if (all_dashpots.act())

@@ -66,11 +66,6 @@ namespace quoin
     {
       return edge_numbers.size();
     }
-    /** Nodes at the ends of edges, compact. */
-    unsigned int n_nodes() const
-    {
-      return position.size();
-    }
     /** Index of the edge of this @p number on all ranks. */
     unsigned int local_edge(const unsigned int number) const
     {
@@ -85,7 +80,7 @@ namespace quoin
     {
       return edge_links[edge];
     }
-    /** Positions of the nodes of edges, without gaps between them [m]. */
+    /** Positions of the nodes at the ends of edges, compact [m]. */
     const AlignedArray<dealii::Tensor<1, 2>> &positions() const
     {
       return position;
