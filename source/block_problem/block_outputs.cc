@@ -214,9 +214,8 @@ namespace quoin
     // Before an incident wave arrives, the model has little more energy than
     // the precursor of the wave brings, of which numerical errors are a large
     // share. So the measure is the energy that the wave brings in the run.
-    const double scale
-        = std::max(largest_throughput,
-                   system.solver->loads().far.elastodynamic->incident_energy());
+    const double scale = std::max(largest_throughput,
+                                  system.solver->loads().far.incident_energy);
     if (taken < -largest_created_share * scale)
       throw RunError(text_of(
           "the boundary elements have created energy, ", -taken, " J, where ",

@@ -136,8 +136,9 @@ namespace quoin
   template <>
   void StageSteps<2>::make_waves(const double step)
   {
-    FarField &far   = *system.solver->loads().far.elastodynamic;
-    double duration = 0.;
+    FarFields &fields = system.solver->loads().far;
+    FarField &far     = *fields.elastodynamic;
+    double duration   = 0.;
     for (const StageParameters &stage : parameters.stages)
       if (stage.end == StageEnd::time && names_load(stage, far.name()))
         duration += stage.duration + step;
@@ -147,10 +148,11 @@ namespace quoin
     far.set_incident_field([this](const double time)
                            { return waves->displacements(time); },
                            [this](const double begin, const double end)
-                           { return waves->tractions(begin, end); },
-                           waves->energy(far.domain().medium,
-                                         far.domain().interface, duration, step)
-                               * system.model->parameters().thickness);
+                           { return waves->tractions(begin, end); });
+    fields.incident_energy
+        = waves->energy(far.domain().medium, far.domain().interface, duration,
+                        step)
+          * system.model->parameters().thickness;
     log.messages(waves->reports());
   }
 

@@ -159,24 +159,16 @@ namespace quoin
 
     /**
      * Incident field on the whole boundary: displacements at a time
-     * [m], and the tractions of the step from begin to end [Pa]; @p energy:
-     * scale of what it brings through the interface in the run [J]. Must be
+     * [m], and the tractions of the step from begin to end [Pa]. Must be
      * called before it first acts.
      */
     void set_incident_field(
         std::function<Eigen::VectorXd(double time)> displacement,
-        std::function<Eigen::VectorXd(double begin, double end)> traction,
-        const double energy = 0.)
+        std::function<Eigen::VectorXd(double begin, double end)> traction)
     {
       incident_displacement = std::move(displacement);
       incident_traction     = std::move(traction);
       last_incident.reset();
-      energy_of_incident = energy;
-    }
-    /** Scale of the energy of the incident field [J]; 0: there is none. */
-    double incident_energy() const
-    {
-      return energy_of_incident;
     }
 
     /** 0 before set_time_step() [s]. */
@@ -260,8 +252,7 @@ namespace quoin
         incident_displacement; /**< null: no incident wave */
     std::function<Eigen::VectorXd(double, double)> incident_traction;
     std::optional<IncidentStep> last_incident;
-    bool incident_is_due      = false; /**< in a run that goes on */
-    double energy_of_incident = 0.;
+    bool incident_is_due = false; /**< in a run that goes on */
     double thickness;
     MPI_Comm communicator;
     bool is_first_rank;

@@ -32,6 +32,9 @@ namespace quoin
     /** Far field of stages that end by time. */
     FarField *elastodynamic      = nullptr;
     StaticFarField *elastostatic = nullptr; /**< far field of static stages */
+    /** Scale of the energy that incident waves bring through the interface in
+        the run [J]; 0: there are none. */
+    double incident_energy = 0.;
     // In the stage that has begun:
     bool elastodynamic_acts = false;
     bool elastostatic_acts  = false;
