@@ -36,7 +36,7 @@ namespace quoin
     {
       const ExplicitSolver<dim> &solver = *context.system.explicit_solver;
       const double dt                   = solver.get_time_step();
-      const double critical             = solver.critical_time_step();
+      const double critical             = solver.critical_step().length;
       std::string text = text_of("stage ", stage.name, ": time step ", dt,
                                  " s, ", 100. * dt / critical,
                                  " % of the critical ", critical, " s");
@@ -191,7 +191,7 @@ namespace quoin
           if (limit.is_of_few() && !parameters.generated.cleaning.empty())
             run.log.message(parameters.generated.cleaning);
         }
-      if (const double gain = system.explicit_solver->step_gain();
+      if (const double gain = system.explicit_solver->critical_step().gain;
           i == 0 && gain > 1.)
         run.log.message("by the stiffness of all blocks and joints together, "
                         "'Critical time step = assembled' in section 'Time "
@@ -214,7 +214,7 @@ namespace quoin
   void BlockProblem<dim>::report_added_mass(const unsigned int index)
   {
     const StageParameters &stage = parameters.stages[index];
-    const AddedMass &added       = system.explicit_solver->added_mass();
+    const AddedMass &added = system.explicit_solver->critical_step().added;
     if (const double water = system.explicit_solver->added_water().total();
         water > 0.)
       run.log.message("stage ", stage.name, ": ", water,
@@ -371,8 +371,8 @@ namespace quoin
     if (const ExplicitSolver<dim> *solver = system.explicit_solver)
       summary.update(
           { { "time step [s]", solver->get_time_step() },
-            { "critical time step [s]", solver->critical_time_step() },
-            { "added mass share", solver->added_mass().share },
+            { "critical time step [s]", solver->critical_step().length },
+            { "added mass share", solver->critical_step().added.share },
             { "element updates per second",
               seconds > 0.
                   ? double(report.n_cells) * double(context.n_done) / seconds

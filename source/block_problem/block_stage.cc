@@ -445,7 +445,7 @@ namespace quoin
     figures.fraction = fraction;
     if (const ExplicitSolver<dim> *solver = system.explicit_solver)
       figures.share_of_critical
-          = solver->get_time_step() / solver->critical_time_step();
+          = solver->get_time_step() / solver->critical_step().length;
     figures.unbalanced_ratio = state.unbalanced_ratio;
     figures.energy_residual  = context.energy_residual();
     return figures;

@@ -45,7 +45,7 @@ namespace quoin
   template <int dim>
   void StageSteps<dim>::choose(const StageParameters &stage)
   {
-    const double critical = system.explicit_solver->critical_time_step();
+    const double critical = system.explicit_solver->critical_step().length;
     double dt             = parameters.time_step;
     if (dt > critical)
       throw InputError(text_of(

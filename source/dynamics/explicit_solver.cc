@@ -107,8 +107,8 @@ namespace quoin
       is_explicit_beyond = all.far.elastodynamic
                            && all.far.elastodynamic->domain().scheme
                                   == CouplingScheme::staggered;
-    return is_damped || has_bars || is_explicit_beyond || added.share > 0.
-           || cells_may_yield(model);
+    return is_damped || has_bars || is_explicit_beyond
+           || critical.added.share > 0. || cells_may_yield(model);
   }
 
   template <int dim>
@@ -118,14 +118,14 @@ namespace quoin
         = dealii::Utilities::MPI::max(model.stability().largest_eigenvalue(
                                           node_mass, rigid_stage.mass_factor),
                                       communicator);
-    gain = 1.;
+    critical.gain = 1.;
     if (!takes_assembled_step || keeps_bound())
       return bound;
     const double found
         = highest_squared_frequency(model, node_mass, rigid_stage);
     if (found <= 0. || found >= bound)
       return bound;
-    gain = std::sqrt(bound / found);
+    critical.gain = std::sqrt(bound / found);
     return found;
   }
 
@@ -179,7 +179,7 @@ namespace quoin
                                    beam_motion.get(), state);
     node_mass               = masses.nodes;
     rigid_stage.mass_factor = masses.rigid_factor;
-    added                   = masses.added;
+    critical.added          = masses.added;
     water.begin_stage(stage, start);
     // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
@@ -190,7 +190,7 @@ namespace quoin
     if constexpr (dim == 2)
       if (all.water && all.water->acts())
         eigenvalue += largest_water_eigenvalue();
-    critical_step = StableTimeStep<dim>::critical(
+    critical.length = StableTimeStep<dim>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
     for (MotionConstraint<dim> *constraint : acting.constraints)
@@ -314,13 +314,13 @@ namespace quoin
   {
     // Masses that are added slow waves down.
     return 2. * model.nodes().table().diagonal() / slowest_shear_wave(model)
-           * std::sqrt(1. + added.share);
+           * std::sqrt(1. + critical.added.share);
   }
 
   template <int dim>
   double ExplicitSolver<dim>::quiet_time() const
   {
-    return std::max(passage_time(), least_quiet_steps * critical_step);
+    return std::max(passage_time(), least_quiet_steps * critical.length);
   }
 
   template <int dim>

@@ -17,6 +17,17 @@
 
 namespace quoin
 {
+  /** The critical time step of a stage, and what mass scaling adds for it. */
+  struct CriticalStep
+  {
+    double length = 0.; /**< [s], the same on all ranks */
+    /** How many times as long the step of blocks, joints and contacts is,
+        without stiffness-proportional damping, as that of the bound of each
+        node. */
+    double gain = 1.;
+    AddedMass added;
+  };
+
   /**
    * Explicit time integration (CentralDifferences) of blocks, joints, contacts
    * and far fields, stage by stage.
@@ -85,27 +96,15 @@ namespace quoin
     {
       takes_assembled_step = true;
     }
-    /** How many times as long the critical step of blocks, joints and contacts
-        is in the stage, without stiffness-proportional damping, as that of the
-        bound of each node. */
-    double step_gain() const
+    /** Critical time step of the stage. */
+    const CriticalStep &critical_step() const
     {
-      return gain;
-    }
-    /** Critical time step of the stage [s], the same on all ranks. */
-    double critical_time_step() const
-    {
-      return critical_step;
+      return critical;
     }
     /** Time in which forces may change without shaking the model: that of a
         shear wave along its diagonal and back, at least two thousand critical
         time steps, which joints are too soft for waves alone to tell [s]. */
     double quiet_time() const;
-    /** What mass scaling adds in the stage. */
-    const AddedMass &added_mass() const
-    {
-      return added;
-    }
     /** The water that moves with faces in the stage. */
     const AddedWater<dim> &added_water() const
     {
@@ -219,9 +218,7 @@ namespace quoin
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
     AddedWater<dim> water;
     bool takes_assembled_step = false;
-    double critical_step      = 0.;
-    double gain               = 1.; /**< see step_gain() */
-    AddedMass added;
+    CriticalStep critical;
     double time_step = 0.;
 
     RigidBlockStage rigid_stage;

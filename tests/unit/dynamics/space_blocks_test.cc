@@ -700,7 +700,7 @@ namespace
     ExplicitSolver<3> solver(model, loads);
     State<3> state = model.initial_state();
     solver.begin_stage(stage, nullptr, state);
-    solver.set_time_step(0.8 * solver.critical_time_step());
+    solver.set_time_step(0.8 * solver.critical_step().length);
     while (state.time < 3e-3)
       solver.step(state, { false, false });
     return { state.velocity.begin(), state.velocity.end() };

@@ -272,7 +272,7 @@ TEST(ModelBox, BlocksThatLoadsMoveStay)
   ExplicitSolver<2> solver(run.model, loads, stages);
   State<2> state = run.model.initial_state();
   solver.begin_stage(stages[0], nullptr, state);
-  solver.set_time_step(0.5 * solver.critical_time_step());
+  solver.set_time_step(0.5 * solver.critical_step().length);
   for (NodeRecord<2> &node : state.nodes)
     node.u[1] += 2.;
   solver.step(state, { true, true });

@@ -183,7 +183,7 @@ namespace quoin::test
                const StageParameters *previous = nullptr)
     {
       solver.begin_stage(stage, previous, state);
-      solver.set_time_step(share * solver.critical_time_step());
+      solver.set_time_step(share * solver.critical_step().length);
     }
 
     void step(const unsigned int n, const bool balance = false)
