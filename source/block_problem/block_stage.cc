@@ -179,7 +179,7 @@ namespace quoin
     // under initial stress.
     if (!system.explicit_solver || index > 0
         || stage.end != StageEnd::static_ratio
-        || !system.model->initial_stress().faces.empty())
+        || !system.model->parameters().initial_stresses.empty())
       return;
     const auto [lost, all] = n_without_bond(
         system.model->joints(), state.template get<JointHistoryOf<dim>>(),

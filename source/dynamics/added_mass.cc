@@ -123,8 +123,8 @@ namespace quoin
   }
 
   template <>
-  void ScaledMasses<2>::find_beam_masses(const Model<2> &model, const double dt,
-                                         BeamMotion &beams,
+  void ScaledMasses<2>::find_beam_masses(const StableTimeStep<2> &stability,
+                                         const double dt, BeamMotion &beams,
                                          const State<2> &state)
   {
     beams.find_masses(dt, state);
@@ -135,17 +135,17 @@ namespace quoin
       if (springs[i] == 0.)
         continue;
       if (dt > 0.)
-        nodes[i] = std::max(nodes[i], model.stability().mass_for(i, dt)
+        nodes[i] = std::max(nodes[i], stability.mass_for(i, dt)
                                           + 0.25 * dt * dt * springs[i]);
-      eigenvalue = std::max(eigenvalue,
-                            model.stability().squared_frequency(i, nodes[i])
-                                + springs[i] / nodes[i]);
+      eigenvalue = std::max(eigenvalue, stability.squared_frequency(i, nodes[i])
+                                            + springs[i] / nodes[i]);
     }
     beam_eigenvalue = eigenvalue;
   }
 
   template <int dim>
   ScaledMasses<dim>::ScaledMasses(const Model<dim> &model,
+                                  const StableTimeStep<dim> &stability,
                                   const double time_step,
                                   BeamMotion *const beams,
                                   const State<dim> &state)
@@ -156,17 +156,16 @@ namespace quoin
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
     {
       double &factor = rigid_factor[b];
-      factor
-          = time_step > 0. ? model.stability().rigid_factor(b, time_step) : 1.;
+      factor = time_step > 0. ? stability.rigid_factor(b, time_step) : 1.;
       for (unsigned int i = rigid.block(b).begin; i < rigid.block(b).end; ++i)
         nodes[i] *= factor;
     }
     if (time_step > 0.)
       for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
-        nodes[i] = std::max(nodes[i], model.stability().mass_for(i, time_step));
+        nodes[i] = std::max(nodes[i], stability.mass_for(i, time_step));
     if constexpr (dim == 2)
       if (beams)
-        find_beam_masses(model, time_step, *beams, state);
+        find_beam_masses(stability, time_step, *beams, state);
     if (time_step == 0.)
       return;
     BeamMasses of_beams;

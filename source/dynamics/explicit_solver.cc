@@ -13,6 +13,7 @@
 #include <quoin/model/block_placement.h>
 #include <quoin/model/contact_bounds.h>
 #include <quoin/model/material_waves.h>
+#include <quoin/model/model_stability.h>
 #include <quoin/water/joint_flow.h>
 
 #include <algorithm>
@@ -65,7 +66,7 @@ namespace quoin
       std::unique_ptr<FarField> far_field,
       std::unique_ptr<StaticFarField> static_field)
     : Solver<dim>(model, loads, std::move(far_field), std::move(static_field)),
-      block_contacts(model.contacts()),
+      block_contacts(model.operators().contacts),
       stepper(model.nodes(), model.blocks(), time_shares),
       node_mass(model.mass()), water(model, loads), all_stages(stages)
   {
@@ -112,12 +113,12 @@ namespace quoin
   }
 
   template <int dim>
-  double ExplicitSolver<dim>::largest_eigenvalue()
+  double
+  ExplicitSolver<dim>::largest_eigenvalue(const StableTimeStep<dim> &stability)
   {
-    const double bound
-        = dealii::Utilities::MPI::max(model.stability().largest_eigenvalue(
-                                          node_mass, rigid_stage.mass_factor),
-                                      communicator);
+    const double bound = dealii::Utilities::MPI::max(
+        stability.largest_eigenvalue(node_mass, rigid_stage.mass_factor),
+        communicator);
     critical.gain = 1.;
     if (!takes_assembled_step || keeps_bound())
       return bound;
@@ -175,7 +176,9 @@ namespace quoin
     };
 
     const double before = kinetic();
-    const ScaledMasses<dim> masses(model, stage.scaled_time_step,
+    const StableTimeStep<dim> stability
+        = stability_at(model, model.initial_state());
+    const ScaledMasses<dim> masses(model, stability, stage.scaled_time_step,
                                    beam_motion.get(), state);
     node_mass               = masses.nodes;
     rigid_stage.mass_factor = masses.rigid_factor;
@@ -184,7 +187,8 @@ namespace quoin
     // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
 
-    double eigenvalue = std::max(masses.beam_eigenvalue, largest_eigenvalue());
+    double eigenvalue
+        = std::max(masses.beam_eigenvalue, largest_eigenvalue(stability));
     for (const MotionConstraint<dim> *constraint : acting.constraints)
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
     if constexpr (dim == 2)
@@ -221,14 +225,15 @@ namespace quoin
   void ExplicitSolver<dim>::collect_operators(const StageParameters *previous)
   {
     std::vector<ForceOperator<dim> *> forces, begun;
+    const ModelOperators<dim> own = model.operators();
     if constexpr (dim == 2)
-      if (block_contacts)
-        forces.push_back(block_contacts);
-    forces.push_back(&model.joints());
+      if (own.contacts)
+        forces.push_back(own.contacts);
+    forces.push_back(own.joints);
     if constexpr (dim == 2)
     {
-      if (!model.reinforcement().empty())
-        forces.push_back(&model.reinforcement());
+      if (own.bars)
+        forces.push_back(own.bars);
       if (all.beams)
         forces.push_back(all.beams.get());
     }
@@ -261,7 +266,7 @@ namespace quoin
       mark_blocks(nodes, *constraint, is_held);
     model.set_held_blocks(is_held);
     const DashpotBlocks blocks = dashpot_blocks(model);
-    model.joints().set_blocks(blocks);
+    model.operators().joints->set_blocks(blocks);
     if (block_contacts)
       block_contacts->set_blocks(blocks);
     stepper.use_dashpots(
@@ -621,8 +626,8 @@ namespace quoin
       }
       if (all.beams)
         all.beams->add_forces(context, state, forces);
-      if (!model.reinforcement().empty())
-        model.reinforcement().add_forces(context, state, forces);
+      if (Reinforcement *bars = model.operators().bars)
+        bars->add_forces(context, state, forces);
     }
     model.joints().add_forces(state.nodes.data(),
                               state.template get<JointHistoryOf<dim>>(),

@@ -5,7 +5,6 @@
 #include <quoin/base/nearest_name.h>
 #include <quoin/mesh/kind_text.h>
 #include <quoin/model/block_placement.h>
-#include <quoin/model/model_stability.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
@@ -74,7 +73,6 @@ namespace quoin
     }
     else
       matched_joints.prepare(nodes, now.joints);
-    find_stable_step();
   }
 
   template <int dim>
@@ -192,7 +190,6 @@ namespace quoin
     matched_joints.set_laws(now.joints);
     if (block_contacts)
       block_contacts->set_properties(now.joints, now.material_of_group);
-    find_stable_step();
   }
 
   template <int dim>
@@ -201,18 +198,6 @@ namespace quoin
     held_blocks = is_held;
     MPI_Allreduce(MPI_IN_PLACE, held_blocks.data(), held_blocks.size(),
                   MPI_UINT8_T, MPI_MAX, node_map.communicator());
-    if (std::any_of(now.joints.begin(), now.joints.end(),
-                    [](const JointSetParameters &set)
-                    { return set.damping.acts(); }))
-      find_stable_step();
-  }
-
-  template <int dim>
-  void Model<dim>::find_stable_step()
-  {
-    if (!node_map.table().is_quadratic)
-      stable_step = std::make_unique<StableTimeStep<dim>>(
-          stability_at(*this, initial_state()));
   }
 
   template <int dim>

@@ -21,6 +21,18 @@ namespace quoin
     {
       std::copy(stress.begin(), stress.end(), history.space_cells[cell].stress);
     }
+
+    /** The stress at zero strain of cells in the order of
+        ConstructionState::initial_stress [Pa]. */
+    template <int dim>
+    AlignedArray<double> initial_stress_of_cells(const Model<dim> &model)
+    {
+      AlignedArray<double> result;
+      for (const CellStress<dim> &stress :
+           model.blocks().cell_data().initial_stress)
+        result.insert(result.end(), stress.begin(), stress.end());
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -29,8 +41,7 @@ namespace quoin
                             ConstructionState<dim> &construction)
   {
     if (construction.initial_stress.empty())
-      construction.initial_stress
-          = model.initial_stress().packed(model.nodes());
+      construction.initial_stress = initial_stress_of_cells(model);
     auto &stress             = construction.initial_stress;
     constexpr unsigned int n = ConstructionState<dim>::n_stresses;
     for (unsigned int c = 0; n * c < stress.size(); ++c)
@@ -89,7 +100,7 @@ namespace quoin
           continue;
       }
       if (initial.empty())
-        initial = model.initial_stress().packed(model.nodes());
+        initial = initial_stress_of_cells(model);
       initial.resize(n * local.n_deformable, 0.);
       for (unsigned int k = 0; k < n; ++k)
         initial[n * c + k] = bears[k] - after[k];

@@ -5,6 +5,7 @@
 #define quoin_dynamics_added_mass_h
 
 #include <quoin/blocks/rigid_blocks.h>
+#include <quoin/blocks/stable_time_step.h>
 #include <quoin/model/model.h>
 #include <quoin/structures/beam_motion.h>
 
@@ -55,10 +56,11 @@ namespace quoin
   template <int dim>
   struct ScaledMasses
   {
-    /** @p time_step: that step [s]; 0: nothing is scaled. @p beams: of the run,
-        or null; finds their masses, too. Collective. */
-    ScaledMasses(const Model<dim> &model, double time_step, BeamMotion *beams,
-                 const State<dim> &state);
+    /** @p stability: of @p model; @p time_step: that step [s]; 0: nothing is
+        scaled. @p beams: of the run, or null; finds their masses, too.
+        Collective. */
+    ScaledMasses(const Model<dim> &model, const StableTimeStep<dim> &stability,
+                 double time_step, BeamMotion *beams, const State<dim> &state);
 
     std::vector<double> nodes;        /**< of local nodes [kg] */
     std::vector<double> rigid_factor; /**< of the mass of rigid blocks [-] */
@@ -68,12 +70,13 @@ namespace quoin
     double beam_eigenvalue = 0.;
 
   private:
-    void find_beam_masses(const Model<dim> &model, double time_step,
-                          BeamMotion &beams, const State<dim> &state);
+    void find_beam_masses(const StableTimeStep<dim> &stability,
+                          double time_step, BeamMotion &beams,
+                          const State<dim> &state);
   };
 
   template <>
-  void ScaledMasses<2>::find_beam_masses(const Model<2> &model,
+  void ScaledMasses<2>::find_beam_masses(const StableTimeStep<2> &stability,
                                          double time_step, BeamMotion &beams,
                                          const State<2> &state);
 } // namespace quoin

@@ -166,7 +166,7 @@ namespace quoin
     /** Largest omega^2 of blocks, joints and contacts with the masses of the
         stage: by the bound of each node or, if that is wanted, of the assembled
         stiffness, then with its gain [1/s^2]. Collective. */
-    double largest_eigenvalue();
+    double largest_eigenvalue(const StableTimeStep<dim> &stability);
     /** Bound of what the stiffness of the water adds to it [1/s^2]; collective.
      */
     double largest_water_eigenvalue() const;

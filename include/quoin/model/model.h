@@ -12,7 +12,6 @@
 #include <quoin/joint_elements/joint_changes.h>
 #include <quoin/joint_elements/space_joints.h>
 #include <quoin/blocks/block_cells.h>
-#include <quoin/blocks/stable_time_step.h>
 #include <quoin/blocks/rigid_blocks.h>
 #include <quoin/joint_laws/joint_parameters.h>
 #include <quoin/loads/load_parameters.h>
@@ -55,6 +54,15 @@ namespace quoin
     /** Material of each physical surface. */
     std::vector<unsigned int> material_of_group;
     std::vector<JointSetParameters> joints;
+  };
+
+  /** The operators beside the blocks, of which some change as they act. */
+  template <int dim>
+  struct ModelOperators
+  {
+    BlockContacts *contacts; /**< null if displacements are small */
+    JointsOf<dim> *joints;
+    Reinforcement *bars; /**< null: no bolts and cables */
   };
 
   /** @p properties with the strength of joints and blocks, or of one of the
@@ -114,7 +122,7 @@ namespace quoin
     void set_properties(const ModelProperties &properties,
                         const ConstructionState<dim> &construction);
     /** Sets the blocks that loads hold or move in a stage (block of the mesh:
-        nonzero), which is for dashpots and stability(). Collective. */
+        nonzero), which is for dashpots and stability_at(). Collective. */
     void set_held_blocks(const std::vector<std::uint8_t> &is_held);
     bool is_held(const unsigned int block) const
     {
@@ -142,29 +150,20 @@ namespace quoin
     {
       return matched_joints;
     }
-    JointsOf<dim> &joints()
-    {
-      return matched_joints;
-    }
     /** Bolts and cables of two dimensions. */
     const Reinforcement &reinforcement() const
     {
       return bars;
     }
-    Reinforcement &reinforcement()
-    {
-      return bars;
-    }
     /** Null if displacements are small. */
-    BlockContacts *contacts() const
+    const BlockContacts *contacts() const
     {
       return block_contacts.get();
     }
-    /** Bound of the critical step with the properties of now; none for
-       quadratic meshes, whose corners have no mass. */
-    const StableTimeStep<dim> &stability() const
+    ModelOperators<dim> operators()
     {
-      return *stable_step;
+      return { block_contacts.get(), &matched_joints,
+               bars.empty() ? nullptr : &bars };
     }
     /**
      * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of
@@ -174,18 +173,12 @@ namespace quoin
     {
       return node_mass;
     }
-    /** Stress at zero strain at the start of the run. */
-    const InitialStress<dim> &initial_stress() const
-    {
-      return start_stress;
-    }
 
   private:
     void find_materials();
     void find_thickness();
     void find_masses();
     void pack_blocks(const ConstructionState<dim> &construction);
-    void find_stable_step();
     void make_contacts();
 
     const NodeMap<dim> &node_map;
@@ -203,7 +196,6 @@ namespace quoin
     Reinforcement bars;
     std::unique_ptr<BlockContacts> block_contacts;
     std::vector<std::uint8_t> held_blocks; /**< of the mesh; empty: none */
-    std::unique_ptr<StableTimeStep<dim>> stable_step;
   };
 
   // A member that exists in two dimensions only.

@@ -4,6 +4,7 @@
 #ifndef quoin_model_model_stability_h
 #define quoin_model_model_stability_h
 
+#include <quoin/blocks/stable_time_step.h>
 #include <quoin/model/model.h>
 
 namespace quoin
