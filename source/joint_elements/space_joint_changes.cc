@@ -105,6 +105,24 @@ namespace quoin
         force);
   }
 
+  Vector force_on_upper(const SpaceJoints &joints, const unsigned int i,
+                        const State<3> &state)
+  {
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    const SpaceJointFace &face       = joints.faces()[i];
+    const SpaceJointFrame frame      = joint_frame(face, state.nodes.data());
+    Vector result;
+    for (unsigned int p = 3 * i; p < 3 * i + 3; ++p)
+    {
+      Slip<3> shear;
+      shear[0] = history.shear_traction[2 * p];
+      shear[1] = history.shear_traction[2 * p + 1];
+      result -= face.area
+                * traction_vector(frame, history.normal_traction[p], shear);
+    }
+    return result;
+  }
+
   void detach_joint(const unsigned int i, SpaceJointHistory &history)
   {
     history.detached[i] = 1;

@@ -164,23 +164,6 @@ namespace quoin
     }
   }
 
-  Vector SpaceJoints::force_on_upper(const unsigned int i,
-                                     const State<3> &state) const
-  {
-    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
-    const SpaceJointFrame frame = joint_frame(all_faces[i], state.nodes.data());
-    Vector result;
-    for (unsigned int p = 3 * i; p < 3 * i + 3; ++p)
-    {
-      Slip<3> shear;
-      shear[0] = history.shear_traction[2 * p];
-      shear[1] = history.shear_traction[2 * p + 1];
-      result -= all_faces[i].area
-                * traction_vector(frame, history.normal_traction[p], shear);
-    }
-    return result;
-  }
-
   void SpaceJoints::add_stored_energy(const State<3> &state,
                                       EnergyAccounts &energies) const
   {

@@ -8,6 +8,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/base/number_text.h>
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/reinforcement/bar_results.h>
 #include <quoin/results/point_values.h>
@@ -333,7 +334,7 @@ namespace quoin
       const auto &joint          = model.nodes().faces().joints[face.face];
       if (name.empty() || model.nodes().table().face_names[joint.name] == name)
         force += face.share
-                 * joints.force_on_upper(i, state)[probe.parameters.component];
+                 * force_on_upper(joints, i, state)[probe.parameters.component];
     }
     return force;
   }

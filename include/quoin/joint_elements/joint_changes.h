@@ -59,6 +59,10 @@ namespace quoin
   void add_traction_forces(const SpaceJoints &joints, unsigned int i,
                            const State<3> &state, dealii::Tensor<1, 3> *force);
 
+  /** The force [N] on the upper side of face @p i by its tractions. */
+  dealii::Tensor<1, 3> force_on_upper(const SpaceJoints &joints, unsigned int i,
+                                      const State<3> &state);
+
   /** Face @p i is no joint from now on: a side of it is not there. */
   void detach_joint(unsigned int i, JointHistory &history);
   void detach_joint(unsigned int i, SpaceJointHistory &history);

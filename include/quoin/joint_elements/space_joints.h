@@ -150,10 +150,6 @@ namespace quoin
                             const dealii::Tensor<1, 3> *velocity, double beta,
                             dealii::Tensor<1, 3> *force) const;
 
-    /** Adds the forces [N] on the upper side by the tractions of face @p i. */
-    dealii::Tensor<1, 3> force_on_upper(unsigned int i,
-                                        const State<3> &state) const;
-
   private:
     const NodeMap<3> *node_map = nullptr;
     std::vector<SpaceJointFace> all_faces; /**< sorted by set */

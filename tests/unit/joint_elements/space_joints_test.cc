@@ -3,6 +3,7 @@
 
 #include "space_stack.h"
 
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/joint_elements/joint_tangent.h>
 #include <quoin/joints/point_arrays.h>
 #include <quoin/operators/stored_energy.h>
@@ -216,7 +217,7 @@ TEST(SpaceJoints, TractionOfUniformOpeningAndSlip)
   for (unsigned int i = 0; i < stack.joints.faces().size(); ++i)
   {
     area += 3. * stack.joints.faces()[i].area;
-    sum += stack.joints.force_on_upper(i, stack.state);
+    sum += force_on_upper(stack.joints, i, stack.state);
   }
   EXPECT_LE((on_high + area * traction).norm(), 1e-9 * area * traction.norm());
   EXPECT_LE((sum + area * traction).norm(), 1e-9 * area * traction.norm());
