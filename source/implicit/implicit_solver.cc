@@ -116,7 +116,8 @@ namespace quoin
         state, stage,
         stage.release_duration >= 0. ? stage.release_duration : duration);
     rests = rests && !acting.release.changes()
-            && !(all.water && all.water->changes(stage_start, duration));
+            && !(all.water && all.water->acts()
+                 && all.water->parameters().changes(stage_start, duration));
     own_steps.begin_stage(duration, rests, stage.safety.has_value());
     dof_map
         = std::make_unique<DofMap<dim>>(model, acting.constraints, held_blocks,

@@ -58,8 +58,8 @@ namespace quoin
       for (const double load : beams->loads(time))
         result.push_back({ load, 0., 0., 0., 0. });
     if (water)
-      for (const double value : water->boundary_values(time))
-        result.push_back({ value, 0., 0., 0., 0. });
+      for (const WaterBoundary &boundary : water->parameters().boundaries)
+        result.push_back({ boundary.value(time), 0., 0., 0., 0. });
     return result;
   }
 
@@ -69,10 +69,11 @@ namespace quoin
                                const double step) const
   {
     constexpr double earliest = 1e-9; // [s]
-    const double duration = step * double(n_steps + (water ? water->lag() : 0));
-    const double now      = state.load_time;
-    const double before   = std::max(0., now - duration);
-    const auto present    = values(state.stage_start, now);
+    const double duration
+        = step * double(n_steps + (water ? water->parameters().lag() : 0));
+    const double now    = state.load_time;
+    const double before = std::max(0., now - duration);
+    const auto present  = values(state.stage_start, now);
     if (present != values(state.stage_start, before))
       return true;
     if (release.changes() && release.share(before) != release.share(now))

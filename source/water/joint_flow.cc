@@ -365,31 +365,6 @@ namespace quoin
     find_forces();
   }
 
-  bool JointFlow::changes(const double start, const double duration) const
-  {
-    if (!now.acts)
-      return false;
-    if (given.flow == FlowKind::transient)
-      return true;
-    constexpr unsigned int n_samples = 100;
-    for (const WaterBoundary &boundary : given.boundaries)
-      for (unsigned int i = 1; i <= n_samples; ++i)
-      {
-        const double t = duration * i / n_samples;
-        if (boundary.value({ t, start + t }) != boundary.value({ 0., start }))
-          return true;
-      }
-    return false;
-  }
-
-  std::vector<double> JointFlow::boundary_values(const TimePoint &time) const
-  {
-    std::vector<double> result;
-    for (const WaterBoundary &boundary : given.boundaries)
-      result.push_back(boundary.value(time));
-    return result;
-  }
-
   void JointFlow::update(const StepContext &step, State<2> &state)
   {
     JointFlowState &water = state.get<JointFlowState>();

@@ -174,4 +174,19 @@ namespace quoin
                               "'Water'. Set that, or give 'pressure'.");
     return water;
   }
+
+  bool WaterParameters::changes(const double start, const double duration) const
+  {
+    if (flow == FlowKind::transient)
+      return true;
+    constexpr unsigned int n_samples = 100;
+    for (const WaterBoundary &boundary : boundaries)
+      for (unsigned int i = 1; i <= n_samples; ++i)
+      {
+        const double t = duration * i / n_samples;
+        if (boundary.value({ t, start + t }) != boundary.value({ 0., start }))
+          return true;
+      }
+    return false;
+  }
 } // namespace quoin

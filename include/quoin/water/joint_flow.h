@@ -104,16 +104,6 @@ namespace quoin
     {
       return now.acts;
     }
-    /** Whether loads change with time in a stage of @p duration that began at
-        @p start [s] because of the water. */
-    bool changes(double start, double duration) const;
-    /** What is given at the boundaries at @p time, in their order. */
-    std::vector<double> boundary_values(const TimePoint &time) const;
-    /** Number of explicit steps by which it follows what is given late. */
-    unsigned int lag() const
-    {
-      return given.flow == FlowKind::steady ? given.interval : 1;
-    }
 
     /** Solves the flow if it is due in this step. */
     void update(const StepContext &step, State<2> &state) override;

@@ -99,6 +99,14 @@ namespace quoin
     {
       return stages.empty() || is_among(name, stages);
     }
+    /** Whether loads change with time in a stage of @p duration that began at
+        @p start [s] because of the water. */
+    bool changes(double start, double duration) const;
+    /** Number of explicit steps by which water follows what is given late. */
+    unsigned int lag() const
+    {
+      return flow == FlowKind::steady ? interval : 1;
+    }
 
     static void declare(dealii::ParameterHandler &prm);
     /** Reads the three sections of @p top. */
