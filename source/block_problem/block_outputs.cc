@@ -192,9 +192,9 @@ namespace quoin
   void BlockOutputs<dim>::write_energies(const double time)
   {
     const Energies &energies = system.solver->energies();
-    most_residual = std::max(most_residual, std::abs(energies.residual()));
-    most_energy   = std::max(most_energy, energies.throughput());
-    most_kinetic  = std::max(most_kinetic, energies.kinetic);
+    most.residual   = std::max(most.residual, std::abs(energies.residual()));
+    most.throughput = std::max(most.throughput, energies.throughput());
+    most.kinetic    = std::max(most.kinetic, energies.kinetic);
     std::vector<double> row = { time };
     for (const EnergyAccount &account : energy_accounts)
       row.push_back(energies.*account.value);

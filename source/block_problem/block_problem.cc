@@ -355,7 +355,7 @@ namespace quoin
           { "unbalanced ratio", state.unbalanced_ratio },
           { "energy throughput [J]", energies.throughput() },
           { "energy residual [J]", energies.residual() },
-          { "largest energy residual [J]", context.outputs.largest_residual() },
+          { "largest energy residual [J]", context.outputs.largest().residual },
           { "energy residual share", context.energy_residual() },
           { "solver", system.implicit_solver ? "implicit" : "explicit" } });
     if constexpr (dim == 2)
@@ -540,7 +540,7 @@ namespace quoin
     constexpr double largest_of_contacts = 0.05;
     const Energies &energies             = system.solver->energies();
     const double left        = energies.throughput() - energies.damping;
-    const double kinetic     = context.outputs.largest_kinetic();
+    const double kinetic     = context.outputs.largest().kinetic;
     const double of_contacts = energies.contact / std::max(left, kinetic);
     if (std::abs(of_contacts) > largest_of_contacts)
       run.log.warning(

@@ -76,7 +76,7 @@ namespace quoin
   {
     const Energies &energies = system.solver->energies();
     const double scale       = std::max(
-              { energies.throughput(), outputs.largest_energy(), rounding });
+              { energies.throughput(), outputs.largest().throughput, rounding });
     return scale > 0. ? energies.residual() / scale : 0.;
   }
 

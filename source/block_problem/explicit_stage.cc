@@ -107,7 +107,7 @@ namespace quoin
         kinetic
             += 0.5 * system.model->mass()[i] * state.velocity[i].norm_square();
       kinetic = dealii::Utilities::MPI::sum(kinetic, context.run.communicator);
-      if (kinetic <= by_largest * outputs.largest_kinetic()
+      if (kinetic <= by_largest * outputs.largest().kinetic
           || kinetic <= by_stored * solver.energies().sum(EnergyKind::stored))
         return;
       const bool one = begun.size() == 1;

@@ -12,6 +12,14 @@
 
 namespace quoin
 {
+  /** Largest energies so far [J]. */
+  struct LargestEnergies
+  {
+    double residual   = 0.; /**< of the energy balance */
+    double throughput = 0.;
+    double kinetic    = 0.;
+  };
+
   /** Tables and fields of a problem of blocks; members are collective. */
   template <int dim>
   class BlockOutputs
@@ -65,27 +73,16 @@ namespace quoin
 
     /** Numbers in a row of all tables together. */
     std::size_t n_columns() const;
-    /** Largest residual of the energy balance so far [J]. */
-    double largest_residual() const
+    const LargestEnergies &largest() const
     {
-      return most_residual;
-    }
-    /** Largest energy throughput so far [J]. */
-    double largest_energy() const
-    {
-      return most_energy;
-    }
-    /** Largest kinetic energy so far [J]. */
-    double largest_kinetic() const
-    {
-      return most_kinetic;
+      return most;
     }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &fields &boundary &all_histories &most_residual &most_energy
-          &most_kinetic &largest_throughput &fields_time;
+      archive &fields &boundary &all_histories &most.residual &most
+          .throughput &most.kinetic &largest_throughput &fields_time;
     }
 
   private:
@@ -118,9 +115,7 @@ namespace quoin
     ModelOutput<dim> fields;
     BoundaryOutput boundary;
 
-    double most_residual      = 0.;
-    double most_energy        = 0.;
-    double most_kinetic       = 0.;
+    LargestEnergies most;
     double largest_throughput = 0.;  /**< boundary elements' too [J] */
     double fields_time        = -1.; /**< time of the last VTU files [s] */
   };
