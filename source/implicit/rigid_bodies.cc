@@ -171,9 +171,15 @@ namespace quoin
   {
     BodyValues<dim> result(bodies.size());
     for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      const MotionConstraint<dim> *platen = bodies[b].platen;
+      if (!platen)
+        continue;
+      const double share = platen->rigid_motion()->force_share(time.stage);
       for (unsigned int d = 0; d < n_body_motions<dim>; ++d)
-        if (bodies[b].platen && !bodies[b].given[d])
-          result[b][d] = body_component(*bodies[b].platen, d).value(time);
+        if (!bodies[b].given[d])
+          result[b][d] = share * body_component(*platen, d).value(time);
+    }
     return result;
   }
 

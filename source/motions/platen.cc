@@ -247,7 +247,7 @@ namespace quoin
                  s0     = std::sin(platen.displacement[2]);
     const dealii::Tensor<1, 2> mass_arm(
         { c0 * offset[0] - s0 * offset[1], s0 * offset[0] + c0 * offset[1] });
-    const double share = half_cosine(step.begin.stage, force_ramp);
+    const double share = force_share(step.begin.stage);
     BodyStep<3, 2> body;
     for (unsigned int d = 0; d < 3; ++d)
     {

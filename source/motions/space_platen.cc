@@ -262,7 +262,7 @@ namespace quoin
     const Vector spin        = half_of(platen.velocity, 3);
     const Six nodal          = resultant(captured, platen);
     velocity_before          = platen.velocity;
-    const double share       = half_cosine(step.begin.stage, force_ramp);
+    const double share       = force_share(step.begin.stage);
     BodyStep<6, 3> body;
     for (unsigned int d = 0; d < 6; ++d)
     {

@@ -109,6 +109,9 @@ namespace quoin
     {
       return nullptr;
     }
+    /** Share of its forces that acts at the @p load_time [s] of a stage in
+        which they grow, see MotionConstraint::grow_forces() [-]. */
+    virtual double force_share(double load_time) const = 0;
 
   protected:
     ~RigidMotion() = default;

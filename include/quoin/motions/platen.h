@@ -7,6 +7,7 @@
 #include <quoin/loads/load_parameters.h>
 #include <quoin/motions/motion_constraint.h>
 #include <quoin/mesh/node_map.h>
+#include <quoin/signals/time_function.h>
 
 namespace quoin
 {
@@ -70,6 +71,10 @@ namespace quoin
     void grow_forces(const double duration) override
     {
       force_ramp = duration;
+    }
+    double force_share(const double load_time) const override
+    {
+      return half_cosine(load_time, force_ramp);
     }
     void resume_stage(const State<2> &state) override;
     void correct(const StepContext &step,

@@ -70,6 +70,10 @@ namespace quoin
     {
       force_ramp = duration;
     }
+    double force_share(const double load_time) const override
+    {
+      return half_cosine(load_time, force_ramp);
+    }
     void resume_stage(const State<3> &state) override;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode<3>> &captured,
