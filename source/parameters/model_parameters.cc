@@ -213,7 +213,8 @@ namespace quoin
       const auto &places = parameters.water.boundaries;
       for (const HistoryParameters &history : parameters.histories)
       {
-        if (history.quantity != HistoryQuantity::water)
+        if (history.quantity != HistoryQuantity::water
+            && !history.is_of_joint_water())
           continue;
         const ParameterSection subsection(section, history.name);
         if (parameters.water.flow == FlowKind::none)
@@ -228,6 +229,24 @@ namespace quoin
                                                  &WaterBoundary::name)
                               + ".");
       }
+    }
+
+    /** Refuses histories of a load pattern where no stage has one. */
+    void check_pattern_histories(const ParameterSection &top,
+                                 const Parameters &parameters)
+    {
+      if (std::any_of(parameters.stages.begin(), parameters.stages.end(),
+                      [](const StageParameters &stage)
+                      { return stage.pattern.has_value(); }))
+        return;
+      const ParameterSection section(top, "Histories");
+      for (const HistoryParameters &history : parameters.histories)
+        if (history.quantity == HistoryQuantity::load_factor
+            || history.quantity == HistoryQuantity::controlled_displacement)
+          ParameterSection(section, history.name)
+              .fail("Quantity",
+                    "is one of a load pattern, and no stage has one. Give a "
+                    "stage a 'Load pattern', or remove the history.");
     }
 
     /** Checks that no stage changes the law of a liner's interface, which
@@ -437,6 +456,7 @@ namespace quoin
     check_histories_of(top, "Beams", parameters.beams, HistoryQuantity::beam,
                        "Beam", &HistoryParameters::beam, parameters);
     check_water_histories(top, parameters);
+    check_pattern_histories(top, parameters);
     check_interfaces(top, parameters);
     check_end_conditions(top, parameters);
     parameters.implicit

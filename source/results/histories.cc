@@ -189,9 +189,11 @@ namespace quoin
     case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
-    case HistoryQuantity::joint:
       probe.at = find_history_point(model, wanted, absent_in_the_end);
       return;
+    case HistoryQuantity::joint:
+      probe.at = find_history_point(model, wanted, absent_in_the_end);
+      return check_law(probe);
     case HistoryQuantity::joint_force:
       return find_surface(probe);
     case HistoryQuantity::water:
@@ -230,6 +232,32 @@ namespace quoin
                            "section 'Contact'.");
       return;
     }
+  }
+
+  template <int dim>
+  void Histories<dim>::check_law(const Probe &probe) const
+  {
+    const std::string field = probe.parameters.law_field();
+    if (field.empty())
+      return;
+    unsigned int has_it = 0;
+    if (probe.at.here)
+      std::visit(
+          [&](const auto &law)
+          {
+            for (const auto &each : law.template fields<dim>())
+              if (each.name == field)
+                has_it = 1;
+          },
+          model.joints()
+              .laws()[joint_faces(model.joints())[probe.at.entity / dim].set]);
+    if (dealii::Utilities::MPI::max(has_it, communicator) == 0)
+      throw InputError(
+          "section 'Histories/" + probe.parameters.name
+          + "': 'Quantity = " + probe.parameters.word
+          + "' is one of joints with 'Law = composite', and the joint at "
+            "'Point' has another law. Give a point of such a joint, name its "
+            "'Curve', or remove the history.");
   }
 
   template <int dim>

@@ -110,6 +110,9 @@ namespace quoin
     double value_of_two(const Probe &probe, const double *values) const;
     /** Length of open joints that this rank counts [m]. */
     double open_length(const State<2> &state) const;
+    /** Throws an InputError if the law of the joint at @p probe has no such
+        result; collective. */
+    void check_law(const Probe &probe) const;
     /** Throws an InputError if no joint is where @p probe sums forces;
         collective. */
     void find_surface(const Probe &probe) const;

@@ -89,6 +89,23 @@ namespace quoin
              || quantity == HistoryQuantity::block_force;
     }
 
+    /** Whether it is one of the water that flows in a joint. */
+    bool is_of_joint_water() const
+    {
+      return quantity == HistoryQuantity::joint && dimension == 2
+             && component >= 7;
+    }
+
+    /** Name of the field of results of the laws of joints that it is; empty:
+        all laws have it. */
+    std::string law_field() const
+    {
+      return quantity != HistoryQuantity::joint ? ""
+             : component == 5                   ? "damage"
+             : component == 6                   ? "crushing"
+                                                : "";
+    }
+
     /** Whether it compares the displacements of two points. */
     bool is_of_two_points() const
     {
