@@ -134,7 +134,8 @@ namespace quoin
       if (system.implicit_solver)
       {
         report_iterations(context, i, state);
-        state.time += system.implicit_solver->steps().duration();
+        state.load_time = system.implicit_solver->steps().duration();
+        state.time += state.load_time;
         continue;
       }
       context.steps.choose(parameters.stages[i]);

@@ -237,7 +237,7 @@ namespace quoin
     const auto &flow = state.get<JointFlowState>().boundary_flow;
     // The row is one of the start of a step.
     const FlowVolumes water = system.water->volumes(
-        state, state.stage_start + state.load_time
+        state, state.load_start() + state.load_time
                    - state.load_rate * (state.time - time));
     std::vector<double> row
         = { time, water.inflow, water.outflow, water.stored, water.residual };

@@ -177,7 +177,8 @@ namespace quoin
       if (const ImplicitSolver<dim> *solver = system.implicit_solver)
       {
         run.log.message(unknowns_text(*solver, stage));
-        begun.time += solver->steps().duration();
+        begun.load_time = solver->steps().duration();
+        begun.time += begun.load_time;
         continue;
       }
       context.steps.choose(stage);
@@ -200,8 +201,11 @@ namespace quoin
       advise_about_stage(i, begun);
       time_is_known &= stage.duration_is_known();
       if (time_is_known)
-        begun.time += double(context.steps.n_steps())
-                      * system.explicit_solver->get_time_step();
+      {
+        begun.load_time = double(context.steps.n_steps())
+                          * system.explicit_solver->get_time_step();
+        begun.time += begun.load_time;
+      }
     }
     if (system.construction)
       system.construction->restart();
@@ -361,8 +365,8 @@ namespace quoin
     if constexpr (dim == 2)
       if (system.water)
       {
-        const FlowVolumes water
-            = system.water->volumes(state, state.stage_start + state.load_time);
+        const FlowVolumes water = system.water->volumes(
+            state, state.load_start() + state.load_time);
         summary.update({ { "water inflow [m3]", water.inflow },
                          { "water outflow [m3]", water.outflow },
                          { "stored water [m3]", water.stored },

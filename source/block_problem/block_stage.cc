@@ -91,7 +91,8 @@ namespace quoin
     AlignedArray<dealii::Tensor<1, dim>> forces(state.nodes.size(),
                                                 dealii::Tensor<1, dim>());
     for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
-      load->add_loads({ state.load_time, state.time }, forces.data());
+      load->add_loads({ state.load_time, state.load_start() + state.load_time },
+                      forces.data());
     nodes.exchange().add_to_owners(forces.data());
     double energy = 0.;
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)

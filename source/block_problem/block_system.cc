@@ -287,7 +287,8 @@ namespace quoin
       {
         solver->stage_loads().check_start(state);
         if (explicit_solver)
-          explicit_solver->added_water().check_levels(stage, state.time);
+          explicit_solver->added_water().check_levels(stage,
+                                                      state.load_start());
       }
     }
     catch (const InputError &error)

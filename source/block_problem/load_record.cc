@@ -301,7 +301,7 @@ namespace quoin
   {
     const StageLoads<dim> &loads = system.solver->stage_loads();
     const NodeMap<dim> &nodes    = *system.nodes;
-    const TimePoint time{ load_time, state.stage_start + load_time };
+    const TimePoint time{ load_time, state.load_start() + load_time };
     AlignedArray<dealii::Tensor<1, dim>> force(nodes.n_local(),
                                                dealii::Tensor<1, dim>());
     for (const NodalLoad<dim> *load : loads.nodal)

@@ -416,7 +416,7 @@ namespace quoin
       AlignedArray<dealii::Tensor<1, dim>> forces(base.nodes.size(),
                                                   dealii::Tensor<1, dim>());
       for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
-        load->add_loads({ 0., base.time }, forces.data());
+        load->add_loads({ 0., base.next_load_start() }, forces.data());
       model.nodes().exchange().add_to_owners(forces.data());
       double force = 0.;
       for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)

@@ -24,18 +24,18 @@ namespace quoin
   StepContext step_context(const State<dim> &state,
                            const StageParameters &stage, const double dt)
   {
-    const double in_stage = state.load_time;
-    const double advance  = state.load_rate * dt;
+    const double in_stage = state.load_time, start = state.load_start();
+    const double advance = state.load_rate * dt;
     StepContext result;
-    result.dt                = dt;
-    result.dt_before         = state.previous_time_step;
-    result.dt_velocity       = 0.5 * (dt + state.previous_time_step);
-    result.load_rate         = state.load_rate;
-    result.begin             = { in_stage, state.stage_start + in_stage };
-    result.middle            = { in_stage + 0.5 * advance,
-                                 state.stage_start + in_stage + 0.5 * advance };
+    result.dt          = dt;
+    result.dt_before   = state.previous_time_step;
+    result.dt_velocity = 0.5 * (dt + state.previous_time_step);
+    result.load_rate   = state.load_rate;
+    result.begin       = { in_stage, start + in_stage };
+    result.middle
+        = { in_stage + 0.5 * advance, start + in_stage + 0.5 * advance };
     result.stiffness_damping = stage.stiffness_coefficient;
-    result.end = { in_stage + advance, state.stage_start + in_stage + advance };
+    result.end           = { in_stage + advance, start + in_stage + advance };
     result.local_damping = stage.local_coefficient;
     result.mass_damping  = stage.damping == DampingType::adaptive
                                ? state.adaptive_damping

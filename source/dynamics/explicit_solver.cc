@@ -349,7 +349,7 @@ namespace quoin
       if (all.water)
         all.water->begin_stage(stage.name, state);
     set_dashpots();
-    scale_masses(stage, state.time, state);
+    scale_masses(stage, state.next_load_start(), state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_loads(previous, automatic_ramp());
     collect_operators(previous);
@@ -365,9 +365,7 @@ namespace quoin
         all.far.elastostatic->follow(*all.far.elastodynamic, state);
     collect_constrained_nodes(state);
     this->begin_pattern(previous, state);
-    state.stage_start      = state.time;
-    state.stage_step       = 0;
-    state.load_time        = 0.;
+    state.begin_clocks();
     state.load_rate        = stage.slows_loads() ? loading_rate::start : 1.;
     state.load_rate_growth = 1.;
     state.adaptive_damping = 0.;
@@ -386,7 +384,7 @@ namespace quoin
     collect_operators(nullptr);
     const State<dim> saved = state;
     set_dashpots();
-    scale_masses(stage, state.stage_start, state);
+    scale_masses(stage, state.load_start(), state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_loads(previous, automatic_ramp());
     for (MotionConstraint<dim> *constraint : acting.constraints)

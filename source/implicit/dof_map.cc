@@ -77,7 +77,7 @@ namespace quoin
                       const std::vector<bool> &held, const State<dim> &state,
                       const bool has_factor)
     : model(model), communicator(model.nodes().communicator()),
-      stage_start(state.stage_start), absent(absent_nodes(model, state)),
+      stage_start(state.load_start()), absent(absent_nodes(model, state)),
       ties(model.nodes().n_local(),
            { dealii::numbers::invalid_dof_index, {}, {} })
   {

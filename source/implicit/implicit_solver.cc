@@ -94,7 +94,7 @@ namespace quoin
   template <int dim>
   void ImplicitSolver<dim>::prepare_stage(const State<dim> &state)
   {
-    stage_start = state.stage_start;
+    stage_start = state.load_start();
     check_no_free_bodies(model, acting.constraints, stage.name, state);
     refuse_shared_platens(model, acting.constraints, stage);
     if constexpr (dim == 2)
@@ -188,9 +188,7 @@ namespace quoin
       constraint->begin_stage(state,
                               previous && all.acts_in(*constraint, *previous));
     }
-    state.stage_start                       = state.time;
-    state.stage_step                        = 0;
-    state.load_time                         = 0.;
+    state.begin_clocks();
     state.load_rate                         = 1.;
     state.template get<ImplicitState>()     = ImplicitState();
     state.template get<ImplicitState>().dim = dim;
@@ -240,8 +238,9 @@ namespace quoin
                                                 dealii::Tensor<1, 2>());
       // Without an equilibrium the steps of the stage say so.
       if (all.beams
-              ->settle({ state.load_time, state.time }, state, settled,
-                       unused.data(), nullptr)
+              ->settle(
+                  { state.load_time, state.load_start() + state.load_time },
+                  state, settled, unused.data(), nullptr)
               .empty())
         state = std::move(settled);
     }

@@ -394,7 +394,7 @@ namespace quoin
           followed = loads.water->follow(
               configuration.nodes.data(),
               { configuration.load_time,
-                state.stage_start + configuration.load_time });
+                state.load_start() + configuration.load_time });
       for (NodalLoad<dim> &load : loads.nodal)
         if (names_load(stage, load.name()) && !load.follow_crack(balance.state)
             && followed == JointFlow::Followed::balanced)

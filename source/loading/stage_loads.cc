@@ -73,13 +73,13 @@ namespace quoin
         = step * double(n_steps + (water ? water->parameters().lag() : 0));
     const double now    = state.load_time;
     const double before = std::max(0., now - duration);
-    const auto present  = values(state.stage_start, now);
-    if (present != values(state.stage_start, before))
+    const auto present  = values(state.load_start(), now);
+    if (present != values(state.load_start(), before))
       return true;
     if (release.changes() && release.share(before) != release.share(now))
       return true;
     for (double t = late_time; t > std::max(now, earliest); t *= 0.9)
-      if (present != values(state.stage_start, t))
+      if (present != values(state.load_start(), t))
         return true;
     return false;
   }
@@ -99,7 +99,7 @@ namespace quoin
     constexpr std::array<const char *, 3> names
         = { "Horizontal", dim == 2 ? "Vertical" : "Lateral",
             dim == 2 ? "Rotation" : "Vertical" };
-    const TimePoint time{ 0., state.time };
+    const TimePoint time{ 0., state.load_start() };
     for (const MotionConstraint<dim> *constraint : constraints)
     {
       if (const auto *parts = constraint->parts())
@@ -115,7 +115,7 @@ namespace quoin
                                      const State<dim> &state,
                                      const double load_time) const
   {
-    const TimePoint time{ load_time, state.stage_start + load_time };
+    const TimePoint time{ load_time, state.load_start() + load_time };
     const auto check = [&](const auto &values, const std::string &name)
     {
       if (!std::all_of(values.begin(), values.end(),
@@ -146,7 +146,7 @@ namespace quoin
     for (unsigned int i = 0; i <= n_times; ++i)
     {
       const double t = duration * i / n_times;
-      times.push_back({ t, state.stage_start + t });
+      times.push_back({ t, state.load_start() + t });
     }
     return find_unsupported_bodies(model, constraints, nodal, times, state);
   }

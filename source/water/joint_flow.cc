@@ -295,9 +295,10 @@ namespace quoin
   void JointFlow::begin_stage(const std::string &name, State<2> &state)
   {
     JointFlowState &water = state.get<JointFlowState>();
-    flow_on(state.stage_start + state.load_time, water);
+    const double total    = state.next_load_start();
+    flow_on(total, water);
     now      = water;
-    now.time = state.time;
+    now.time = total;
     find_open_channels(state);
     const bool begins = !now.acts;
     now.acts          = given.acts_in(name);
@@ -313,7 +314,7 @@ namespace quoin
       return;
     }
     set_apertures(state.nodes.data());
-    const TimePoint start{ 0., state.time };
+    const TimePoint start{ 0., total };
     FlowSolution solution;
     if (given.flow == FlowKind::steady
         || (begins && given.initial == InitialWater::steady))
@@ -337,7 +338,7 @@ namespace quoin
       solution.inflow.assign(places.elevation.size(), 0.);
     before         = now;
     before.content = solution.content;
-    take(solution, state.time, 0., before);
+    take(solution, total, 0., before);
     water = now;
   }
 

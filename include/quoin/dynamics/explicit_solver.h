@@ -65,7 +65,7 @@ namespace quoin
      */
     void restore_masses(const StageParameters &previous, State<dim> state)
     {
-      scale_masses(previous, state.stage_start, state);
+      scale_masses(previous, state.load_start(), state);
     }
 
     /** Quantities to be computed in a step; see step(). */

@@ -9,6 +9,7 @@
 #include <quoin/operators/energy_accounts.h>
 #include <quoin/operators/state_slices.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace quoin
@@ -42,8 +43,11 @@ namespace quoin
     double stage_start       = 0.; /**< [s] */
     std::uint64_t stage_step = 0;  /**< steps done in this stage */
     double load_time         = 0.; /**< in the stage, by the loads' clock [s] */
-    double load_rate         = 1.; /**< of that clock [-] */
-    double load_rate_growth  = 1.; /**< factor by step [-] */
+    /** By how much that clock was behind the time as the stage began, after
+        stages that slowed loads down or followed a path back and forth [s]. */
+    double load_lag         = 0.;
+    double load_rate        = 1.; /**< of that clock [-] */
+    double load_rate_growth = 1.; /**< factor by step [-] */
 
     AlignedArray<NodeRecord<dim>> nodes;
     AlignedArray<dealii::Tensor<1, dim>> velocity; /**< at time - dt/2 */
@@ -62,12 +66,41 @@ namespace quoin
       return !block_marks.empty() && block_marks[block] >= block_mark::removed;
     }
 
+    /** T, the total time of the loads' clock, at the start of the stage [s]. */
+    double load_start() const
+    {
+      return stage_start - load_lag;
+    }
+
+    /** load_lag of a stage that begins now [s]. */
+    double next_load_lag() const
+    {
+      constexpr double rounding = 1e-12;
+      const double lost         = time - stage_start - load_time;
+      return std::abs(lost) > rounding * time ? load_lag + lost : load_lag;
+    }
+
+    /** load_start() of a stage that begins now [s]. */
+    double next_load_start() const
+    {
+      return time - next_load_lag();
+    }
+
+    /** Begins a stage: its clocks. */
+    void begin_clocks()
+    {
+      load_lag    = next_load_lag();
+      stage_start = time;
+      stage_step  = 0;
+      load_time   = 0.;
+    }
+
     /** Lists all but the slices; see Redistribution. */
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
       visitor.same(time, step, stage, stage_start, stage_step, load_time,
-                   load_rate, load_rate_growth);
+                   load_lag, load_rate, load_rate_growth);
       visitor.nodes(nodes);
       visitor.nodes(velocity);
       visitor.same(block_marks, adaptive_damping, previous_time_step,

@@ -157,6 +157,33 @@ TEST(ExplicitSolver, KineticEnergySlowsTheLoadsDown)
     EXPECT_NEAR(run.state.nodes[node].u[1], 20. * run.state.load_time, 1e-12);
 }
 
+TEST(ExplicitSolver, TotalTimeGoesOnAfterLoadsWereSlowedDown)
+{
+  // A gravity of T goes on where it was, however long the stage before took.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 1);
+  TestRun run(mesh, two_blocks(), { gravity("0", "-1e3*T") });
+  StageParameters slow = stage_with({ "gravity" });
+  slow.kinetic_limit   = 1e-3;
+  run.begin(slow, 0.5);
+  run.step(300, true);
+  const double reached = run.state.load_time;
+  ASSERT_LT(reached, 0.1 * run.state.time);
+
+  StageParameters next = stage_with({ "gravity" });
+  run.begin(next, 0.5, &slow);
+  EXPECT_NEAR(run.state.load_start(), reached, 1e-12 * run.state.time);
+  const double before = run.state.velocity[0][1];
+  run.step(1);
+  EXPECT_NEAR(run.state.velocity[0][1] - before, -1e3 * reached * run.dt(),
+              1e-9 * std::abs(before) + 1e-6 * 1e3 * reached * run.dt());
+  run.step(100);
+  // T advances as the time does.
+  run.begin(next, 0.5, &next);
+  EXPECT_NEAR(run.state.load_start(), reached + 101. * run.dt(),
+              1e-12 * run.state.time);
+}
+
 TEST(ExplicitSolver, EnergyBalanceWhenTheTimeStepChanges)
 {
   BlockMesh<2> mesh;
