@@ -108,8 +108,16 @@ def outer_faces(cells):
     return faces[count == 1]
 
 
+def orient(points, cells):
+    """Turns tetrahedra whose volume is negative."""
+    a, b, c, d = np.moveaxis(points[cells], 1, 0)
+    volume = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)
+    assert np.min(np.abs(volume)) > 1e-6
+    cells[volume < 0, :2] = cells[volume < 0, 1::-1]
+
+
 def make(n, m, q, is_crossed=False):
-    """Points, tetrahedra of core and rock, {name: triangles}."""
+    """Points, {name: tetrahedra}, {name: triangles}."""
     lattice = Lattice(n, m, q)
     hexahedra = lattice.hexahedra()
     points, centres, cells = lattice.points, {}, []
@@ -120,35 +128,30 @@ def make(n, m, q, is_crossed=False):
              else five(cell, lattice.even))]))
     points = np.array(points)
     for four in cells:
-        a, b, c, d = np.moveaxis(points[four], 1, 0)
-        volume = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)
-        assert np.min(np.abs(volume)) > 1e-6
-        four[volume < 0, :2] = four[volume < 0, 1::-1]
+        orient(points, four)
     faces = outer_faces(np.vstack(cells))
     groups = {name: faces[np.all(np.abs(points[faces][:, :, axis]) < 1e-9,
                                  axis=1)] for axis, name in enumerate(SIDES)}
     groups["outside"] = faces[np.all(np.linalg.norm(points[faces], axis=2)
                                      > OUTER - 1e-9, axis=1)]
     assert sum(map(len, groups.values())) == len(faces)
-    return points, cells, groups
+    return points, dict(zip(("core", "rock"), cells)), groups
 
 
-def write(name, points, cells, groups):
-    names = ["core", "rock"]
-    with open(os.path.join(HERE, name), "w") as stream:
+def write(path, points, cells, groups):
+    with open(path, "w") as stream:
         stream.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
-                     "$PhysicalNames\n%d\n" % (2 + len(groups)))
-        for tag, group in enumerate(names, start=1):
-            stream.write('3 %d "%s"\n' % (tag, group))
-        for tag, group in enumerate(groups, start=1):
-            stream.write('2 %d "%s"\n' % (tag, group))
+                     "$PhysicalNames\n%d\n" % (len(cells) + len(groups)))
+        for dimension, names in ((3, cells), (2, groups)):
+            for tag, name in enumerate(names, start=1):
+                stream.write('%d %d "%s"\n' % (dimension, tag, name))
         stream.write("$EndPhysicalNames\n$Nodes\n%d\n" % len(points))
         stream.writelines("%d %.10g %.10g %.10g\n" % (k, *point)
                           for k, point in enumerate(points, start=1))
         elements = [(2, tag, triangle) for tag, group in
                     enumerate(groups.values(), start=1) for triangle in group]
         elements += [(4, tag, four) for tag, group in
-                     enumerate(cells, start=1) for four in group]
+                     enumerate(cells.values(), start=1) for four in group]
         stream.write("$EndNodes\n$Elements\n%d\n" % len(elements))
         for number, (kind, tag, nodes) in enumerate(elements, start=1):
             stream.write("%d %d 2 %d %d %s\n" % (
@@ -158,6 +161,7 @@ def write(name, points, cells, groups):
 
 
 if __name__ == "__main__":
-    write("layers.msh", *make(5, 12, 1.15))
-    write("layers_mixed.msh", *make(3, 6, 1.35))
-    write("layers_crossed.msh", *make(3, 6, 1.35, is_crossed=True))
+    for file, arguments in (("layers", (5, 12, 1.15)),
+                            ("layers_mixed", (3, 6, 1.35)),
+                            ("layers_crossed", (3, 6, 1.35, True))):
+        write(os.path.join(HERE, file + ".msh"), *make(*arguments))
