@@ -195,16 +195,17 @@ namespace quoin
       const double x = arms[2 * i], y = arms[2 * i + 1];
       sums[0] += node_mass[i];
       sums[1] += node_mass[i] * (x * x + y * y);
+      // The centre of a group is that of its mass, to rounding. A rank without
+      // nodes has no areas either, whatever the platen is of.
+      if (node_area.empty())
+        continue;
       sums[2] += node_mass[i] * x;
       sums[3] += node_mass[i] * y;
     }
     sums    = sum(sums, communicator);
     mass    = sums[0];
     inertia = sums[1];
-    // The centre of a group is that of its mass, to rounding.
-    offset = node_area.empty()
-                 ? dealii::Tensor<1, 2>()
-                 : dealii::Tensor<1, 2>({ sums[2] / mass, sums[3] / mass });
+    offset  = dealii::Tensor<1, 2>({ sums[2] / mass, sums[3] / mass });
   }
 
   std::array<double, 3>

@@ -169,3 +169,65 @@ TEST(Platen, ABoundaryTurnsAboutItsCentreOfMass)
   // Two turns; a step turns it by up to 7 degrees.
   EXPECT_NEAR((centre_of_mass() - before).norm(), 0., 5e-3);
 }
+
+// The same on the top of a block of the last rank, on another one of the first,
+// which has none of its nodes and books the work.
+TEST(PlatensOfRanks, ABoundaryTurnsAboutItsCentreOfMassOnEachRank)
+{
+  const MPI_Comm world    = MPI_COMM_WORLD;
+  const unsigned int last = dealii::Utilities::MPI::n_mpi_processes(world) - 1;
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(world) == 0;
+  BlockMesh<2> mesh   = BoundarySquare::rectangle();
+  mesh.boundary_faces.clear();
+  mesh.vertices.insert(mesh.vertices.end(),
+                       { { 1., 3. }, { 4., 3. }, { 4., 4. }, { 1., 4. } });
+  mesh.cells.insert(mesh.cells.end(), { { { 4, 5, 6 } }, { { 4, 6, 7 } } });
+  mesh.cell_group.resize(4, 0);
+  mesh.block_first_cell.push_back(4);
+  mesh.block_first_vertex.push_back(8);
+  mesh.boundary_faces.push_back({ { { 6, 7 } }, 3, 3 });
+  const BlockTriangulation<2> blocks(mesh, { 0, 0, last, last },
+                                     { false, false }, world);
+  const NodeMap<2> nodes(blocks);
+
+  State<2> state;
+  std::vector<double> mass;
+  for (unsigned int i = 0; i < nodes.n_local(); ++i)
+  {
+    state.nodes.emplace_back();
+    for (const unsigned int d : { 0, 1 })
+      state.nodes[i].X[d] = nodes.point(i)[d];
+    mass.push_back(nodes.point(i)[0] < 2.5 ? 2. : 1.);
+  }
+  state.velocity.assign(nodes.n_local(), dealii::Tensor<1, 2>());
+  Platen platen(
+      HeldBlock::parameters(
+          {}, BoundarySquare::component(LoadQuantity::force, "12"), {}, "top"),
+      nodes);
+  EXPECT_EQ(platen.nodes().size(), last > 0 && is_first ? 0U : 2U);
+  platen.prepare(state);
+  platen.set_mass(mass);
+  platen.begin_stage(state, false);
+
+  std::vector<CapturedNode<2>> captured;
+  std::vector<unsigned int> positions;
+  for (const unsigned int node : platen.nodes())
+  {
+    positions.push_back(captured.size());
+    captured.emplace_back();
+    captured.back().node = node;
+    captured.back().mass = mass[node];
+  }
+  platen.bind(positions);
+  StepContext step{};
+  constexpr double dt = BoundarySquare::dt;
+  step.dt = step.dt_before = step.dt_velocity = dt;
+  step.load_rate                              = 1.;
+  platen.correct(step, captured, state);
+  platen.account(step, captured, state);
+  const PlatenState &now = state.get<PlatenState>("plate");
+  EXPECT_NEAR(now.velocity[1], 4.5 * dt, 1e-15);
+  EXPECT_NEAR(now.velocity[2], dt, 1e-15);
+  EXPECT_NEAR(state.pending.external, is_first ? 0.5 * dt * 12. * 4.5 * dt : 0.,
+              1e-15);
+}
