@@ -75,9 +75,11 @@ namespace quoin
                             : free_line(beam);
       interface.first  = n_points;
       interface.points = std::move(nodes_of_beam.points);
-      beams.push_back({ BeamLine(beam, thickness, n_nodes, nodes_of_beam.places,
-                                 nodes_of_beam.is_closed),
-                        interface });
+      beams.push_back(
+          { BeamLine(beam,
+                     beam.is_liner() ? nodes_of_beam.thickness : thickness,
+                     n_nodes, nodes_of_beam.places, nodes_of_beam.is_closed),
+            interface });
       n_nodes += nodes_of_beam.places.size();
       n_points += interface.points.size();
     }

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
+#include <quoin/base/number_text.h>
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/structures/lined_boundary.h>
 
@@ -127,6 +128,14 @@ namespace quoin
     {
       refuse(why);
     }
+
+    result.thickness = thickness[faces[0].group];
+    for (const auto &face : faces)
+      if (thickness[face.group] != result.thickness)
+        refuse(text_of("is that of blocks of different 'Thickness', ",
+                       result.thickness, " and ", thickness[face.group],
+                       " m. Give them the same one, or a curve and a liner "
+                       "each."));
 
     // The cell of a face is on its left.
     std::map<unsigned int, unsigned int> point_of; // by global nodes

@@ -46,8 +46,8 @@ namespace quoin
       double curvature = 0.; /**< where the line is curved, 0 else [1/m] */
     };
 
-    /** The beam @p given in a model of the @p thickness [m]; its nodes are at
-        @p places in the mesh and have numbers from @p begin on. */
+    /** The beam @p given in a model, or on blocks, of the @p thickness [m]; its
+        nodes are at @p places in the mesh and have numbers from @p begin on. */
     BeamLine(const BeamParameters &given, double thickness, unsigned int begin,
              const std::vector<dealii::Point<2>> &places, bool is_closed);
 
@@ -102,7 +102,7 @@ namespace quoin
     BeamParameters given;
     unsigned int begin, end; /**< nodes */
     bool is_closed;
-    double share;             /**< thickness of the model by the spacing [-] */
+    double share;             /**< thickness by the spacing [-] */
     double axial_stiffness;   /**< E A [N] */
     double bending_stiffness; /**< E I [N m^2] */
     double hinge; /**< largest moment [N m], or BeamParameters::by_section */

@@ -27,14 +27,16 @@ namespace quoin
   struct LinedBoundary
   {
     std::vector<dealii::Point<2>> places;
-    bool is_closed = false;
+    bool is_closed   = false;
+    double thickness = 1.; /**< of its blocks out of the plane [m] */
     /** In the order of the nodes and of the blocks there. */
     std::vector<InterfacePoint> points;
   };
 
   /** The boundary that @p liner lines; @p thickness of each cell group [m].
       Throws an InputError if there is none, if it is not one line, or if it is
-      that of a rigid block. Collective. */
+      that of a rigid block or of blocks that differ in thickness. Collective.
+   */
   LinedBoundary lined_boundary(const BeamParameters &liner,
                                const NodeMap<2> &nodes,
                                const Thickness &thickness);

@@ -55,7 +55,8 @@ namespace
     std::unique_ptr<BeamMotion> motion;
 
     explicit Model(const BeamParameters &beam,
-                   const JointStrength &strength = { 1e30, 0., 1e30 })
+                   const JointStrength &strength    = { 1e30, 0., 1e30 },
+                   const double thickness_of_blocks = 1.)
     {
       CoulombLaw law;
       law.normal_stiffness = 3e9;
@@ -70,7 +71,7 @@ namespace
       for (unsigned int i = 0; i < map.n_local(); ++i)
         state.nodes[i] = { map.point(i), {} };
       beams = std::make_unique<Beams>(std::vector<BeamParameters>{ beam }, map,
-                                      sets, 1., Thickness(1.));
+                                      sets, 1., Thickness(thickness_of_blocks));
       beams->prepare(state);
       beams->begin_stage("first", state);
       motion = std::make_unique<BeamMotion>(*beams, map);
@@ -326,6 +327,29 @@ TEST(Beams, AxialForceBeyondTheSection)
       << text(-0.0005);
   beam.hinge_moment = 100.;
   EXPECT_EQ(text(0.005), "");
+}
+
+// Blocks of half the thickness of the model are lined by half as much: 3 m of
+// them, and beams 2 m apart.
+TEST(Beams, LinersAreAsThickAsTheBlocksThatTheyLine)
+{
+  BeamParameters beam = section();
+  beam.boundary       = "wall";
+  beam.interface      = "bond";
+  beam.spacing        = 2.;
+  const Model model(beam, { 1e30, 0., 1e30 }, 0.5);
+  const auto &[line, interface] = model.beams->all()[0];
+  EXPECT_DOUBLE_EQ(line.share, 0.25);
+  EXPECT_DOUBLE_EQ(line.axial_stiffness, 0.25 * beam.modulus * beam.area);
+  double area = 0.;
+  for (const InterfacePoint &point : interface.points)
+    area += point.area;
+  EXPECT_DOUBLE_EQ(area, 3. * 0.5);
+  // A beam without blocks is in the model.
+  beam        = section();
+  beam.points = { { { 2., 0. } }, { { 4., 0. } } };
+  EXPECT_DOUBLE_EQ(
+      Model(beam, { 1e30, 0., 1e30 }, 0.5).beams->all()[0].line.share, 1.);
 }
 
 // A ring of 72 segments under the axial force -1e6 N, whose corners are at
