@@ -92,6 +92,8 @@ namespace quoin
           found == all.controls.end() ? nullptr : &found->second, state);
     }
 
+    if (stage.end == StageEnd::static_ratio)
+      acting.refuse_endless_motion(stage, state.time);
     // With large displacements blocks may rest on others without a joint.
     if (stage.end == StageEnd::static_ratio
         && !model.parameters().large_displacements)

@@ -19,22 +19,6 @@ namespace quoin
                        + "': 'End = static ratio', but its loads never become "
                          "constant. Take 'End = time' and a 'Duration', or "
                          "functions of time that become constant.");
-    for (const MotionConstraint<dim> *constraint : acting.constraints)
-    {
-      const RigidMotion<dim> *body = constraint->rigid_motion();
-      for (const auto *parts :
-           { constraint->parts(), body ? body->rotations() : nullptr })
-        if (parts)
-          for (const LoadComponent &part : *parts)
-            if (part.quantity == LoadQuantity::velocity
-                && part.value({ late_time, stage_start + late_time }) != 0.)
-              throw InputError("section 'Loads/" + constraint->name()
-                               + "': a velocity that does not become zero "
-                                 "prevents equilibrium in the stage '"
-                               + stage.name
-                               + "', whose 'End' is 'static ratio'. Take 'End "
-                                 "= time' and a 'Duration'.");
-    }
     double rests = late_time, moves = 0.;
     for (double t = late_time; t > earliest; t *= 0.9)
       if (values(t) == last)

@@ -111,6 +111,29 @@ namespace quoin
   }
 
   template <int dim>
+  void StageLoads<dim>::refuse_endless_motion(const StageParameters &stage,
+                                              const double stage_start) const
+  {
+    const auto goes_on = [&](const LoadComponent &part)
+    {
+      return part.quantity == LoadQuantity::velocity
+             && part.value({ late_time, stage_start + late_time }) != 0.;
+    };
+    for (const MotionConstraint<dim> *constraint : constraints)
+      for (const auto *parts :
+           { constraint->parts(), rotations_of(*constraint) })
+        if (parts && std::any_of(parts->begin(), parts->end(), goes_on))
+          throw InputError(
+              "section 'Loads/" + constraint->name()
+              + "': a velocity that does not become zero prevents "
+                "equilibrium in the stage '"
+              + stage.name + "', whose 'End' is '"
+              + (stage.safety ? "factor of safety" : "static ratio")
+              + "'. Take 'End = time' and a 'Duration' there, or "
+                "a motion that ends.");
+  }
+
+  template <int dim>
   void StageLoads<dim>::check_finite(const StageParameters &stage,
                                      const State<dim> &state,
                                      const double load_time) const

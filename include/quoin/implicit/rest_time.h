@@ -10,8 +10,8 @@
 namespace quoin
 {
   /** Load time from which on the loads of @p stage, which begins at
-      @p stage_start, are constant [s]. Throws an InputError if they never are,
-      or if a motion goes on. */
+      @p stage_start, are constant [s]. Throws an InputError if they never are.
+   */
   template <int dim>
   double rest_time(const StageLoads<dim> &acting, const StageParameters &stage,
                    double stage_start);

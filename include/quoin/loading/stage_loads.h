@@ -53,6 +53,10 @@ namespace quoin
 
     /** Throws an InputError about loads that would begin with a jump. */
     void check_start(const State<dim> &state) const;
+    /** Throws an InputError about a motion that goes on for ever in @p stage,
+        which ends at equilibrium and begins at @p stage_start [s]. */
+    void refuse_endless_motion(const StageParameters &stage,
+                               double stage_start) const;
     /** Throws a RunError that names a load if it is not finite at @p load_time
         [s] of @p stage. */
     void check_finite(const StageParameters &stage, const State<dim> &state,
