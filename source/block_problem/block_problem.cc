@@ -10,6 +10,7 @@
 #include <quoin/block_problem/block_problem.h>
 #include <quoin/block_problem/block_costs.h>
 #include <quoin/loading/constraint_checks.h>
+#include <quoin/reinforcement/bar_results.h>
 #include <quoin/structures/beam_fields.h>
 #include <quoin/advice/model_summary.h>
 #include <quoin/operators/archive.h>
@@ -172,6 +173,10 @@ namespace quoin
               *system.model, system.solver->stage_loads().constraints);
           !lost.empty())
         run.log.warning("stage ", stage.name, ": ", lost);
+      if constexpr (dim == 2)
+        for (const std::string &text : absent_host_texts(
+                 system.model->reinforcement(), begun, stage.name, i == 0))
+          run.log.warning("stage ", stage.name, ": ", text);
       if (run.options.check)
         run.log.message(stage.text(parameters.is_implicit));
       if (const ImplicitSolver<dim> *solver = system.implicit_solver)

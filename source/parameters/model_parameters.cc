@@ -176,13 +176,23 @@ namespace quoin
     {
       const ParameterSection section(top, name);
       for (const Item &item : items)
-        if (!item.stage.empty() && !find_named(parameters.stages, item.stage))
-          ParameterSection(section, item.name)
-              .fail("Stage",
-                    "must be a stage or empty. There are: "
-                        + known_names_like(item.stage, parameters.stages,
-                                           &StageParameters::name)
-                        + ".");
+      {
+        if (item.stage.empty())
+          continue;
+        const ParameterSection own(section, item.name);
+        const StageParameters *stage
+            = find_named(parameters.stages, item.stage);
+        if (!stage)
+          own.fail("Stage",
+                   "must be a stage or empty. There are: "
+                       + known_names_like(item.stage, parameters.stages,
+                                          &StageParameters::name)
+                       + ".");
+        if (stage->safety)
+          own.fail("Stage", "searches a factor of safety and leaves the model "
+                            "as it was: what it places would be gone after "
+                            "the search. Name a stage before it.");
+      }
     }
 
     /** Checks that histories of @p quantity name one of @p items of the section

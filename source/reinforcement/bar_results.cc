@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/reinforcement/bar_results.h>
 
 #include <algorithm>
@@ -175,6 +176,43 @@ namespace quoin
           largest = std::max(largest, std::min(strength, most) / stiffness);
     }
     return largest;
+  }
+
+  std::vector<std::string> absent_host_texts(const Reinforcement &reinforcement,
+                                             const State<2> &state,
+                                             const std::string &stage,
+                                             const bool is_first)
+  {
+    std::vector<std::string> texts;
+    const auto &cables = reinforcement.sections();
+    for (unsigned int c = 0; c < cables.size(); ++c)
+    {
+      if (cables[c].stage.empty() ? !is_first : cables[c].stage != stage)
+        continue;
+      std::size_t n_bars = 0, n_lost = 0;
+      std::string place;
+      for (unsigned int b = 0; b < reinforcement.all().size(); ++b)
+      {
+        const PlacedBar &bar = reinforcement.all()[b];
+        if (bar.cable != c)
+          continue;
+        ++n_bars;
+        const auto &lost = state.get<ReinforcementState>().bars[b].lost;
+        const auto first = std::find(lost.begin(), lost.end(), 1);
+        if (first != lost.end() && n_lost++ == 0)
+          place = point_text(bar.hosts[first - lost.begin()].X);
+      }
+      if (n_lost > 0)
+        texts.push_back(text_of(
+            "reinforcement ", cables[c].name, ": of ", n_lost, " of ",
+            count_text(n_bars, "bar"), " a part lies, such as at ", place,
+            " m, in a block that is excavated or not there yet. That part "
+            "bears nothing, neither now nor after a later 'Fill', and a bar "
+            "whose far end lies there bears nothing at all. Name the stage "
+            "that places the block as its 'Stage', or let the bar lie in "
+            "blocks that are there."));
+    }
+    return texts;
   }
 
   std::string cable_text(const Reinforcement &reinforcement)

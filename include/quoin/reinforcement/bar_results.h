@@ -62,6 +62,13 @@ namespace quoin
   double mobilising_motion(const Reinforcement &reinforcement,
                            const State<2> &state, double most);
 
+  /** About bars of each section that begin with the @p stage, the first one of
+      the run or not, and lie in part in blocks that are absent there. */
+  std::vector<std::string> absent_host_texts(const Reinforcement &reinforcement,
+                                             const State<2> &state,
+                                             const std::string &stage,
+                                             bool is_first);
+
   /** Lines about the bars for --check. */
   std::string cable_text(const Reinforcement &reinforcement);
 } // namespace quoin
