@@ -6,6 +6,7 @@
 #include <quoin/base/named_sections.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/parameters/model_parameters.h>
+#include <quoin/rock/rock_box.h>
 #include <quoin/results/history_conditions.h>
 
 #include <algorithm>
@@ -88,9 +89,9 @@ namespace quoin
                                           "meant.");
     }
 
-    /** Checks histories of boundary elements beyond blocks. */
-    void check_coupled_histories(const ParameterSection &top,
-                                 const Parameters &parameters)
+    /** Whether a stage of the explicit solver has dynamic boundary elements
+        beyond the blocks. */
+    bool has_dynamic_boundary(const Parameters &parameters)
     {
       const auto acts = [&](const LoadParameters &load)
       {
@@ -102,6 +103,40 @@ namespace quoin
                                        && names_load(stage, load.name);
                               });
       };
+      return !parameters.is_implicit
+             && std::any_of(parameters.loads.begin(), parameters.loads.end(),
+                            acts);
+    }
+
+    /** Refuses values on boundaries beyond the blocks that are static in all
+        stages, in which these values do not change. */
+    void check_static_boundaries(const ParameterSection &top,
+                                 const Parameters &parameters)
+    {
+      if (has_dynamic_boundary(parameters))
+        return;
+      const ParameterSection section(top, "Boundary elements");
+      for (const BoundaryCurveParameters &curve :
+           parameters.boundary.boundaries)
+      {
+        const ParameterSection own(section, curve.name);
+        for (const std::string name : { "Horizontal", "Vertical", "Pressure" })
+          if (const std::string &text = own.text(name);
+              text != "0" && text != "traction 0" && text != "displacement 0")
+            own.fail(name,
+                     "has no effect: 'Solver' is implicit, or no stage with "
+                     "'End = time' names the load of the boundary elements, "
+                     "and what is given on their boundaries does not change "
+                     "in static stages. Load faces of blocks by a 'traction' "
+                     "instead, or take 'Solver = explicit' and a stage with "
+                     "'End = time'.");
+      }
+    }
+
+    /** Checks histories of boundary elements beyond blocks. */
+    void check_coupled_histories(const ParameterSection &top,
+                                 const Parameters &parameters)
+    {
       const ParameterSection section(top, "Histories");
       for (const HistoryParameters &history : parameters.histories)
       {
@@ -112,9 +147,7 @@ namespace quoin
           subsection.fail("Quantity",
                           "needs 'Model = boundary elements' or a load of "
                           "'Type = boundary elements'.");
-        if (parameters.is_implicit
-            || std::none_of(parameters.loads.begin(), parameters.loads.end(),
-                            acts))
+        if (!has_dynamic_boundary(parameters))
           subsection.fail(
               "Quantity",
               "is a quantity of dynamic boundary elements, but here they are "
@@ -456,6 +489,7 @@ namespace quoin
     parameters.beams               = read_named<BeamParameters>(top, "Beams");
     read_water(top, parameters);
     warn_of_idle_loads(parameters);
+    check_static_boundaries(top, parameters);
     check_coupled_histories(top, parameters);
     check_block_histories(top, parameters);
     const auto &cables = parameters.model.cables;
