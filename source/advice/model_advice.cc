@@ -454,6 +454,23 @@ namespace quoin
                      "unless a support that is not modelled bears the rest.");
     }
 
+    /** Warns of searches whose trials cannot fail, as in mm they would. @p size
+        of the model [m]. */
+    void check_failure_displacement(const std::vector<StageParameters> &stages,
+                                    const double size, Advice &advice)
+    {
+      for (const StageParameters &stage : stages)
+        if (stage.safety)
+          Checks(advice, "stage " + stage.name + ": ")
+              .warn_if(stage.safety->failure_displacement > size,
+                       "'Failure displacement = ",
+                       stage.safety->failure_displacement,
+                       "' m is farther than the model is long, ", size,
+                       " m: blocks that fall come to rest or leave the model "
+                       "before a trial fails. If it is in mm, give ",
+                       1e-3 * stage.safety->failure_displacement, " m.");
+    }
+
     template <int dim>
     void check_materials(const Parameters &parameters, const Model<dim> &model,
                          Advice &advice)
@@ -527,6 +544,8 @@ namespace quoin
     check_forgotten_loads(parameters, advice);
     check_weight(parameters, advice);
     check_release(parameters.stages, advice);
+    check_failure_displacement(parameters.stages,
+                               model.nodes().table().diagonal(), advice);
     check_pressures(parameters, model.nodes(), advice);
     check_signals(parameters, dim, advice);
     check_materials(parameters, model, advice);

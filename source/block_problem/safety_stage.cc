@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
+#include <quoin/model/block_placement.h>
 #include <quoin/model/model_box.h>
 #include <quoin/block_problem/block_stage.h>
 #include <quoin/output/atomic_file.h>
@@ -134,6 +135,8 @@ namespace quoin
       /** Whether trials are implicit and find nothing but joints that fail.
           Collective. */
       bool only_joints_fail() const;
+      /** Writes @p limit, the failure displacement [m], to the log once. */
+      void note_limit(double limit);
       /** Largest one since the start of the stage [m]; collective. */
       double largest_displacement() const;
 
@@ -146,6 +149,7 @@ namespace quoin
       /** Ratio of trial strength to that of the parameters. */
       double raised    = 1.;
       bool interrupted = false; /**< the present trial */
+      bool has_noted   = false; /**< see note_limit() */
     };
 
     template <int dim>
@@ -256,6 +260,7 @@ namespace quoin
       // A sudden loss of strength would make the model overshoot.
       const double start = state.time, duration = solver.quiet_time();
       const double limit = failure_displacement();
+      note_limit(limit);
       FailureWatch watch(limit, start + duration);
       unsigned int n_reduced = 0;
       trial.verdict          = Verdict::undecided;
@@ -323,6 +328,7 @@ namespace quoin
       solver.begin_stage(stage, previous_stage(system.parameters.stages, index),
                          state);
       const double limit = failure_displacement();
+      note_limit(limit);
       // Trials that may go farther begin to move against drag as early.
       const double early = failure_displacement(false);
       JumpWatch watch(limit);
@@ -418,9 +424,11 @@ namespace quoin
       for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
         load->add_loads({ 0., base.next_load_start() }, forces.data());
       model.nodes().exchange().add_to_owners(forces.data());
-      double force = 0.;
+      const auto absent = absent_nodes(model, base);
+      double force      = 0.;
       for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-        force += forces[i].norm();
+        if (!absent[i])
+          force += forces[i].norm();
       energy = dealii::Utilities::MPI::sum(energy, context.run.communicator);
       force  = dealii::Utilities::MPI::sum(force, context.run.communicator);
       const double diagonal = system.nodes->table().diagonal();
@@ -441,6 +449,15 @@ namespace quoin
       return std::max(least, force > 0. && energy > 0.
                                  ? failure_by_loading * 2. * energy / force
                                  : failure_by_diagonal * diagonal);
+    }
+
+    template <int dim>
+    void SafetyStage<dim>::note_limit(const double limit)
+    {
+      if (!has_noted && search.trials().empty())
+        log.message("stage ", stage.name, ": trials may fail beyond ", limit,
+                    " m, 'Failure displacement'");
+      has_noted = true;
     }
 
     template <int dim>

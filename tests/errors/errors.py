@@ -703,6 +703,32 @@ def safety_changes_nothing(quoin, folder):
                       % (rows[0][-1], rows[1][-1]))
 
 
+def failure_displacement_of_what_is_there(quoin, folder):
+    """Blocks that are not there have no part in the displacement at which trials
+    fail, whatever they weigh."""
+    prm = prepare(folder)
+    limits = []
+    for density in ("2500", "25000"):
+        status, printed = run(
+            [quoin, prm] + settings({"set": SAFETY + [
+                "Materials/Names=stone, lid", "Materials/stone/Groups=rock",
+                "Materials/lid/Groups=lid", "Materials/lid/Density=" + density,
+                "Materials/lid/Young's modulus=20e9",
+                "Loads/Names=base, push, weight", "Loads/push/Boundary=left",
+                "Loads/weight/Type=gravity", "Loads/weight/Vertical=-9.81",
+                "Stages/first/Loads=base, weight",
+                "Stages/first/End=static ratio",
+                "Stages/second/Loads=base, weight",
+                "Stages/second/Highest factor=3",
+                "Stages/third/Loads=base, weight, push",
+                "Stages/third/Fill=lid", "Histories/u/Point=0.5, 0.4"]}))
+        expect(status, printed, 0, ["stage second: trials may fail beyond "])
+        limits.append(re.search(r"may fail beyond (\S+) m", printed)[1])
+    if limits[0] != limits[1]:
+        raise Failure("%s m with a light block that is placed later, %s m with a "
+                      "heavy one" % tuple(limits))
+
+
 def last_allowed_step(quoin, folder):
     """A stage that comes to its end in its last allowed step has not failed."""
     prm = prepare(folder)
@@ -1178,7 +1204,8 @@ FUNCTIONS = [base_case_runs, quiet_run, boundary_begins_in_motion,
              undecided_factor_of_the_implicit_solver,
              other_ranks, failure_of_one_rank, more_ranks_than_rigid_blocks,
              other_parameters, nothing_to_resume, failing_block_leaves,
-             safety_changes_nothing, last_allowed_step, implicit_checkpoints,
+             safety_changes_nothing, failure_displacement_of_what_is_there,
+             last_allowed_step, implicit_checkpoints,
              implicit_limit_load, interrupted_before_the_steps,
              two_runs_at_once, odd_names, file_of_another_system,
              far_from_the_origin, blocks_that_overlap, small_pieces_of_rock,
