@@ -104,6 +104,28 @@ namespace quoin
       return text_of("in kN m it would be ", 1e3 * value, " N m");
     }
 
+    std::string meant_line_force(const double value)
+    {
+      return text_of("in kN/m it would be ", 1e3 * value, " N/m");
+    }
+
+    std::string meant_spring(const double value)
+    {
+      return text_of("in kN/mm it would be ", 1e6 * value, " N/m");
+    }
+
+    std::string meant_area(const double value)
+    {
+      return text_of("in mm^2 it would be ", 1e-6 * value, " m^2, in cm^2 ",
+                     1e-4 * value, " m^2");
+    }
+
+    std::string meant_second_moment(const double value)
+    {
+      return text_of("in mm^4 it would be ", 1e-12 * value, " m^4, in cm^4 ",
+                     1e-8 * value, " m^4");
+    }
+
     std::string meant_unit_weight(const double value)
     {
       if (value < 50.)
@@ -151,22 +173,41 @@ namespace quoin
     };
     const std::vector<KindOfSection> &kinds_of_sections()
     {
-      static const std::vector<KindOfSection> kinds
-          = { { "Reinforcement",
-                "bolts",
-                { { "Diameter", 1e-3, 1., "m", meant_length },
-                  { "Young's modulus", 1e9, 1e12, "Pa", meant_modulus },
-                  { "Yield force", 1e3, 1e9, "N", meant_force },
-                  { "Bond stiffness", 1e5, 1e13, "Pa", meant_modulus },
-                  { "Rupture strain", 1e-4, 0.499, "", meant_share } } },
-              { "Beams",
-                "beam",
-                { { "Young's modulus", 1e8, 1e12, "Pa", meant_modulus },
-                  { "Thickness", 1e-3, 20., "m", meant_length },
-                  { "Hinge moment", 100., 1e10, "N m", meant_moment } } },
-              { "Water joints",
-                "water joints",
-                { { "Initial aperture", 1e-8, 0.05, "m", meant_length } } } };
+      static const std::vector<KindOfSection> kinds = {
+        { "Reinforcement",
+          "bolts",
+          { { "Diameter", 1e-3, 1., "m", meant_length },
+            { "Young's modulus", 1e9, 1e12, "Pa", meant_modulus },
+            { "Yield force", 1e3, 1e9, "N", meant_force },
+            { "Bond stiffness", 1e5, 1e13, "Pa", meant_modulus },
+            { "Rupture strain", 1e-4, 0.499, "", meant_share },
+            { "Spacing", 0.02, 50., "m", meant_length },
+            { "Pretension", 1e3, 1e9, "N", meant_force },
+            { "Bond strength", 1e3, 1e9, "N/m", meant_line_force },
+            { "Plate strength", 1e3, 1e9, "N", meant_force },
+            { "Anchor strength", 1e3, 1e9, "N", meant_force },
+            { "Dowel strength", 1e3, 1e9, "N", meant_force },
+            { "Dowel axial strength", 1e3, 1e9, "N", meant_force },
+            { "Plate stiffness", 1e4, 1e14, "N/m", meant_spring },
+            { "Anchor stiffness", 1e4, 1e14, "N/m", meant_spring },
+            { "Dowel stiffness", 1e4, 1e14, "N/m", meant_spring },
+            { "Dowel axial stiffness", 1e4, 1e14, "N/m", meant_spring } } },
+        { "Beams",
+          "beam",
+          { { "Young's modulus", 1e8, 1e12, "Pa", meant_modulus },
+            { "Thickness", 1e-3, 20., "m", meant_length },
+            { "Area", 1e-6, 20., "m^2", meant_area },
+            { "Second moment", 1e-14, 100., "m^4", meant_second_moment },
+            { "Depth", 1e-3, 20., "m", meant_length },
+            density,
+            crushing,
+            tension,
+            { "Spacing", 0.02, 50., "m", meant_length },
+            { "Hinge moment", 100., 1e10, "N m", meant_moment } } },
+        { "Water joints",
+          "water joints",
+          { { "Initial aperture", 1e-8, 0.05, "m", meant_length } } }
+      };
       return kinds;
     }
 
