@@ -54,6 +54,27 @@ namespace quoin
                      cable.element_length,
                      " m long: lower 'Element length' to a third of that.");
     }
+
+    /** Warns of friction of a bond in blocks without stress. */
+    void check_bond_friction(const std::vector<const PlacedBar *> &bars,
+                             const std::vector<bool> &is_rigid, Checks &checks)
+    {
+      for (const PlacedBar *bar : bars)
+        for (unsigned int i = 0; i < bar->hosts.size(); ++i)
+        {
+          if (bar->law.bond_friction == 0. || bar->chain.bond[i] == 0.
+              || !is_rigid[bar->hosts[i].block])
+            continue;
+          checks.warn_if(
+              true,
+              "'Bond friction angle' adds nothing in rigid blocks, which have "
+              "no stress to press on the bond, such as at ",
+              point_text(bar->hosts[i].X),
+              " m: it has its 'Bond strength' alone there. Give one with the "
+              "share of friction in it, or make the blocks deformable.");
+          return;
+        }
+    }
   } // namespace
 
   void check_bars(const Model<2> &model, Advice &advice)
@@ -76,6 +97,7 @@ namespace quoin
           bars.push_back(&bar);
       Checks checks(advice, "reinforcement " + cable.name + ": ");
       check_elements(cable, checks);
+      check_bond_friction(bars, model.nodes().table().is_rigid, checks);
 
       const auto shortest = std::min_element(
           bars.begin(), bars.end(),
