@@ -7,6 +7,7 @@
 #include <quoin/boundary_problem/boundary_problem.h>
 #include <quoin/boundary_problem/boundary_costs.h>
 #include <quoin/operators/archive.h>
+#include <quoin/results/measurements.h>
 #include <quoin/tdbem/plain_vector.h>
 
 #include <nlohmann/json.hpp>
