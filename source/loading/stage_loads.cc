@@ -122,7 +122,9 @@ namespace quoin
     for (const MotionConstraint<dim> *constraint : constraints)
       for (const auto *parts :
            { constraint->parts(), rotations_of(*constraint) })
-        if (parts && std::any_of(parts->begin(), parts->end(), goes_on))
+        // An incident velocity that stays is a constant traction.
+        if (parts && constraint->traits().kind != MotionKind::absorbing
+            && std::any_of(parts->begin(), parts->end(), goes_on))
           throw InputError(
               "section 'Loads/" + constraint->name()
               + "': a velocity that does not become zero prevents "

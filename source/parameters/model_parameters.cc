@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/finite_numbers.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/base/named_sections.h>
@@ -8,6 +9,8 @@
 #include <quoin/parameters/model_parameters.h>
 #include <quoin/rock/rock_box.h>
 #include <quoin/results/history_conditions.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 
@@ -108,6 +111,14 @@ namespace quoin
                             acts);
     }
 
+    /** Whether a value on a boundary, such as 'traction 0.0', is zero. */
+    bool is_zero(const std::string &value)
+    {
+      const auto words = dealii::Utilities::split_string_list(value, ' ');
+      const auto last  = finite_numbers({ words.empty() ? "" : words.back() });
+      return last.size() == 1 && last[0] == 0.;
+    }
+
     /** Refuses values on boundaries beyond the blocks that are static in all
         stages, in which these values do not change. */
     void check_static_boundaries(const ParameterSection &top,
@@ -121,8 +132,7 @@ namespace quoin
       {
         const ParameterSection own(section, curve.name);
         for (const std::string name : { "Horizontal", "Vertical", "Pressure" })
-          if (const std::string &text = own.text(name);
-              text != "0" && text != "traction 0" && text != "displacement 0")
+          if (!is_zero(own.text(name)))
             own.fail(name,
                      "has no effect: 'Solver' is implicit, or no stage with "
                      "'End = time' names the load of the boundary elements, "

@@ -191,16 +191,16 @@ namespace quoin
         continue;
       std::size_t n_bars = 0, n_lost = 0;
       std::string place;
-      for (unsigned int b = 0; b < reinforcement.all().size(); ++b)
+      for (const PlacedBar &bar : reinforcement.all())
       {
-        const PlacedBar &bar = reinforcement.all()[b];
         if (bar.cable != c)
           continue;
         ++n_bars;
-        const auto &lost = state.get<ReinforcementState>().bars[b].lost;
-        const auto first = std::find(lost.begin(), lost.end(), 1);
-        if (first != lost.end() && n_lost++ == 0)
-          place = point_text(bar.hosts[first - lost.begin()].X);
+        const auto first = std::find_if(
+            bar.hosts.begin(), bar.hosts.end(),
+            [&](const BarHost &host) { return state.is_absent(host.block); });
+        if (first != bar.hosts.end() && n_lost++ == 0)
+          place = point_text(first->X);
       }
       if (n_lost > 0)
         texts.push_back(text_of(

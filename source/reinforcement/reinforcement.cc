@@ -56,21 +56,22 @@ namespace quoin
     [[noreturn]] void refuse_pretension(const std::string &cable,
                                         const std::string &stage,
                                         const PlacedBar &bar,
-                                        const BarState &now)
+                                        const State<2> &state)
     {
       const std::string where = "section 'Reinforcement/" + cable + "': ";
-      const auto lost         = std::find(now.lost.begin(), now.lost.end(), 1);
-      if (lost == now.lost.end())
+      const auto lost         = std::find_if(bar.hosts.begin(), bar.hosts.end(),
+                                             [&](const BarHost &host)
+                                             { return state.is_absent(host.block); });
+      if (lost == bar.hosts.end())
         throw InputError(where
                          + "'Pretension' is more than the bond of a bar can "
                            "bear. Lower it, or lengthen the bond.");
-      const auto &X = bar.hosts[lost - now.lost.begin()].X;
-      throw InputError(where
-                       + "'Pretension' has nothing to hold it in the stage '"
-                       + stage + "', because the block at " + point_text(X)
-                       + " m, in which a bar lies, is excavated or not there "
-                         "yet. Let the bar lie in blocks that are there, or "
-                         "name a stage in which they are as its 'Stage'.");
+      throw InputError(
+          where + "'Pretension' has nothing to hold it in the stage '" + stage
+          + "', because the block at " + point_text(lost->X)
+          + " m, in which a bar lies, is excavated or not there "
+            "yet. Let the bar lie in blocks that are there, or "
+            "name a stage in which they are as its 'Stage'.");
     }
   } // namespace
 
@@ -165,7 +166,7 @@ namespace quoin
         continue;
       if (!pretension(bar.law, bar.chain, given.pretension * bar.number,
                       states[b]))
-        refuse_pretension(given.name, name, bar, states[b]);
+        refuse_pretension(given.name, name, bar, state);
       if (is_first)
         state.energy.external
             += quoin::stored_energy(bar.law, bar.chain, states[b]);

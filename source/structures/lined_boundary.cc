@@ -132,10 +132,12 @@ namespace quoin
     result.thickness = thickness[faces[0].group];
     for (const auto &face : faces)
       if (thickness[face.group] != result.thickness)
-        refuse(text_of("is that of blocks of different 'Thickness', ",
-                       result.thickness, " and ", thickness[face.group],
-                       " m. Give them the same one, or a curve and a liner "
-                       "each."));
+        refuse(text_of(
+            "is that of blocks of different 'Thickness', ", result.thickness,
+            " and ", thickness[face.group],
+            " m, counting those on both of its sides. Give them the same "
+            "one, or a curve and a liner "
+            "each."));
 
     // The cell of a face is on its left.
     std::map<unsigned int, unsigned int> point_of; // by global nodes

@@ -22,8 +22,8 @@ namespace
   Boundary two_holes()
   {
     Boundary boundary = Boundary::polygon(
-        { { 0., 0. }, { 1., 0. }, { 1.2, 0.7 }, { 0.1, 0.6 } }, 0.12, true);
-    const Boundary circle = Boundary::circle({ 3., 1. }, 0.6, 20, true);
+        { { 0., 0. }, { 1., 0. }, { 1.2, 0.7 }, { 0.1, 0.6 } }, 0.24, true);
+    const Boundary circle = Boundary::circle({ 3., 1. }, 0.6, 12, true);
     boundary.elements.insert(boundary.elements.end(), circle.elements.begin(),
                              circle.elements.end());
     return boundary;
