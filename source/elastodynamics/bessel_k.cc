@@ -2,9 +2,9 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/eigen_core.h>
 #include <quoin/elastodynamics/bessel_k.h>
 
-#include <array>
 #include <cmath>
 
 namespace quoin
@@ -31,7 +31,7 @@ namespace quoin
         // digamma(k + 2) = digamma(k + 1) + 1/(k + 1)
         regular += term / (k + 1.)
                    * (0.5 * logarithm - 0.25 * (2. * psi + 1. / (k + 1.)));
-        if (std::abs(term) < 1e-18)
+        if (std::norm(term) < 1e-36)
           break;
         psi += 1. / (k + 1.);
         term *= q / ((k + 1.) * (k + 1.));
@@ -45,14 +45,17 @@ namespace quoin
     }
 
     /** x^2 and h exp(-x^2) for x = 0, h, 2h, ...; all but the first doubled. */
-    template <unsigned points>
+    template <int points>
     struct TrapezoidalRule
     {
-      std::array<double, points> square, weight;
+      /** As many as fill SIMD registers; those beyond the last have no weight.
+       */
+      using Array  = Eigen::Array<double, (points + 7) / 8 * 8, 1>;
+      Array square = Array::Zero(), weight = Array::Zero();
 
       explicit TrapezoidalRule(const double h)
       {
-        for (unsigned k = 0; k < points; ++k)
+        for (int k = 0; k < points; ++k)
         {
           square[k] = (k * h) * (k * h);
           weight[k] = (k == 0 ? 1. : 2.) * h * std::exp(-square[k]);
@@ -61,27 +64,20 @@ namespace quoin
 
       BesselK operator()(const Complex z) const
       {
-        // Real arithmetic, so that the compiler may use vectors. The roots
-        // have a real part of at least one.
+        // The roots have a real part of at least one.
         const Complex half_inverse = 0.5 / z;
-        const double u = half_inverse.real(), v = half_inverse.imag();
-        double re0 = 0., im0 = 0., re1 = 0., im1 = 0.;
-        for (unsigned k = 0; k < points; ++k)
-        {
-          const double a = 1. + square[k] * u, b = square[k] * v;
-          const double modulus = std::sqrt(a * a + b * b);
-          const double re      = std::sqrt(0.5 * (modulus + a));
-          const double im      = 0.5 * b / re;
-          const double inverse = weight[k] / modulus;
-          const double factor  = 2. * weight[k] * square[k];
-          re0 += inverse * re;
-          im0 -= inverse * im;
-          re1 += factor * re;
-          im1 += factor * im;
-        }
-        const Complex factor = std::sqrt(half_inverse) * std::exp(-z);
-        const Complex K1     = factor * Complex(re1, im1);
-        return { factor * Complex(re0, im0), K1, regular_part(z, K1) };
+        const Array a              = 1. + square * half_inverse.real(),
+                    b              = square * half_inverse.imag();
+        const Array modulus        = (a * a + b * b).sqrt();
+        const Array re             = (0.5 * (modulus + a)).sqrt();
+        const Array im             = 0.5 * b / re;
+        const Array inverse        = weight / modulus;
+        const Array twice          = 2. * weight * square;
+        const Complex factor       = std::sqrt(half_inverse) * std::exp(-z);
+        const Complex K1
+            = factor * Complex((twice * re).sum(), (twice * im).sum());
+        return { factor * Complex((inverse * re).sum(), -(inverse * im).sum()),
+                 K1, regular_part(z, K1) };
       }
     };
 
@@ -96,7 +92,7 @@ namespace quoin
         term1 *= (4. - odd) * eighth / double(k);
         sum0 += term0;
         sum1 += term1;
-        if (std::abs(term1) < 1e-17)
+        if (std::norm(term1) < 1e-34)
           break;
       }
       const Complex factor = std::sqrt(pi * 0.5 / z) * std::exp(-z);
