@@ -163,7 +163,7 @@ namespace quoin
     std::vector<bool> path_sets;
     std::vector<std::string> set_names;
 
-    double stage_start = 0.; /**< [s] */
+    double stage_start = 0.; /**< State::load_start() [s] */
     std::vector<bool> held_blocks;
     std::unique_ptr<DofMap<dim>> dof_map;
     std::unique_ptr<Equilibrium<dim>> equilibrium;

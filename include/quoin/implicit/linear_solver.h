@@ -23,10 +23,9 @@ namespace quoin
   /**
    * Solves with the stiffness matrix, by LU factors or by GMRES that is
    * preconditioned by smoothed aggregation multigrid. Multigrid gets the rigid
-   * body modes as near null space. The factors are SparseFactors, of several
-   * ranks the first has those of the whole matrix, and solutions are checked;
-   * matrices that it does not solve have the factors of KLU, which exchanges
-   * any rows.
+   * body modes as near null space. The first rank finds the factors of the
+   * whole matrix, SparseFactors, and their solutions are checked. Matrices that
+   * these do not solve have the factors of KLU, which exchanges any rows.
    */
   template <int dim>
   class LinearSolver
@@ -59,7 +58,8 @@ namespace quoin
                             const Configuration<dim> &configuration);
     /** Factorises by SparseFactors; returns success. */
     bool factorise();
-    /** The matrix, of several ranks its copy on the first. */
+    /** The matrix, if there are several ranks its copy on the first one.
+        Collective. */
     const Epetra_CrsMatrix &whole_matrix();
     /** Factorises by KLU; returns success. */
     bool factorise_with_pivoting();
@@ -74,8 +74,9 @@ namespace quoin
     const Matrix *matrix = nullptr;
     dealii::SolverControl control;
     bool is_analysed = false, has_pattern = false;
-    SparseFactors sparse_factors; /**< of several ranks on the first alone */
-    /** Of several ranks: rows to the first one, and the matrix there. */
+    /** Of several ranks the first one alone has them. */
+    SparseFactors sparse_factors;
+    // Several ranks send their rows to the first one, which has the matrix.
     std::unique_ptr<Epetra_Import> to_first;
     std::unique_ptr<Epetra_CrsMatrix> on_first;
     Vector remainder, refinement;
