@@ -395,7 +395,10 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
 RANKS = {"deformable": (2, 4), "divided": (2, 4),
          "contacts, divided": (2, 3, 4)}
 # Those that a short test leaves out: resume_ranks.py has them, or others are like them.
-ONLY_ALL = ("space, construction", "space, rock box")
+ONLY_ALL = ("space, construction", "space, rock box", "rigid", "conditions",
+            "cavity", "space, rock joint", "space, crack", "space, excavation",
+            "construction, divided", "liner, slipping", "dashpots, divided",
+            "implicit, space", "mixed")
 # Those that run on 2 ranks once more: one of each kind of exchange.
 REPEATED = ("deformable", "divided, cracked", "sled", "contacts, divided",
             "space, joints", "space, dashpots", "space, platen",
