@@ -541,8 +541,11 @@ namespace quoin
           = F::set_lanes(moving.find_geometry(at, ea, a, eb, b, g)) & all;
       const Bits present = F::mask_of(found);
       TractionLanes<lanes> forces, viscous;
-      for (unsigned int k = 0; k < 2 && found != 0; ++k)
+#pragma GCC unroll 2
+      for (unsigned int k = 0; k < 2; ++k)
       {
+        if (found == 0)
+          break;
         if (k == 1)
           pack.load(pairs, pair, 1);
         if (found != (1U << lanes) - 1)

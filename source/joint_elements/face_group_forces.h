@@ -159,6 +159,7 @@ namespace quoin
     // Points of the last group: those behind it belong to another set, or to
     // none.
     PointPack<dim * lanes, dim> pack;
+    const PointArrays<dim> packed = pack.arrays();
     FaceNodes<dim> face_nodes(*this, force);
     for (unsigned int i = set_begin[set]; i < set_begin[set + 1]; ++i)
     {
@@ -186,15 +187,15 @@ namespace quoin
           std::fill_n(of_vertices, dim, of_face);
           F::interleave(of_vertices, there);
         }
-        const bool is_full  = group.size == lanes;
-        PointArrays<dim> at = arrays;
-        std::size_t first   = dim * group.first;
+        const bool is_full         = group.size == lanes;
+        const PointArrays<dim> &at = is_full ? arrays : packed;
+        std::size_t first          = dim * group.first;
         if (!is_full)
         {
-          copy_points(arrays.from(first), pack.arrays(), dim * group.size);
-          at    = pack.arrays();
+          copy_points(arrays.from(first), packed, dim * group.size);
           first = 0;
         }
+#pragma GCC unroll 3
         for (unsigned int h = 0; h < dim; ++h)
         {
           PointLanes<lanes, dim> points;

@@ -31,23 +31,24 @@ namespace quoin
     QUOIN_INLINE SegmentLanes(const Group &group, const FaceNodes<2> &nodes,
                               const Bits &present)
     {
-      // X, Y, u and v of lower[0], lower[1], upper[0], upper[1]
-      Value node[4][4];
+      // Differences of X, Y, u and v, of which those of X and of u are taken
+      // apart as in between(); both are added as rows become columns.
+      using Row = Lanes<4>::Value;
+      Row along[lanes], apart[2][lanes];
       const char *base = reinterpret_cast<const char *>(nodes.nodes);
-      for (unsigned int i = 0; i < 4; ++i)
-        L::load_four(
-            [&](const int l)
-            {
-              return reinterpret_cast<const double *>(
-                  base + 2 * std::size_t(group.nodes[i][l]));
-            },
-            node[i]);
+      for (int l = 0; l < lanes; ++l)
+      {
+        Row node[4];
+        for (unsigned int i = 0; i < 4; ++i)
+          node[i] = Lanes<4>::four(reinterpret_cast<const double *>(
+              base + 2 * std::size_t(group.nodes[i][l])));
+        along[l]    = (node[1] - node[0]) + (node[3] - node[2]);
+        apart[0][l] = node[2] - node[0];
+        apart[1][l] = node[3] - node[1];
+      }
       const Value none{};
       Value edge[dim];
-      for (unsigned int d = 0; d < dim; ++d)
-        edge[d] = (node[1][d] - node[0][d]) + (node[3][d] - node[2][d])
-                  + (node[1][2 + d] - node[0][2 + d])
-                  + (node[3][2 + d] - node[2][2 + d]);
+      L::add_halves(along, edge[0], edge[1]);
       inverse_length
           = 1. / F::square_root(edge[0] * edge[0] + edge[1] * edge[1]);
       inverse_length = present ? inverse_length : none;
@@ -56,9 +57,7 @@ namespace quoin
       for (unsigned int k = 0; k < 2; ++k)
       {
         Value gap[dim];
-        for (unsigned int d = 0; d < dim; ++d)
-          gap[d] = (node[2 + k][d] - node[k][d])
-                   + (node[2 + k][2 + d] - node[k][2 + d]);
+        L::add_halves(apart[k], gap[0], gap[1]);
         opening[k] = gap[0] * normal[0] + gap[1] * normal[1];
         slip[0][k] = gap[0] * normal[1] - gap[1] * normal[0];
       }

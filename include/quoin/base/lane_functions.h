@@ -46,19 +46,22 @@ namespace quoin
       store(to, mask ? value : load(to));
     }
 
+    // GCC 12 converts vectors to bytes and back one lane after the other.
     /** Small numbers from and to bytes. */
     static QUOIN_INLINE Bits load_bytes(const std::uint8_t *from)
     {
       Bytes bytes;
       std::memcpy(&bytes, from, sizeof(bytes));
-      // GCC 12 makes eight conversions of one vector without intrinsics.
 #ifdef __AVX512F__
       if constexpr (lanes == 8)
         return (Bits)_mm512_maskz_cvtepi8_epi64(
             0xff, _mm_cvtsi64_si128((long long)bytes));
-      else
 #endif
-        return __builtin_convertvector(bytes, Bits);
+#ifdef __AVX2__
+      if constexpr (lanes == 4)
+        return (Bits)_mm256_cvtepi8_epi64(_mm_cvtsi32_si128((int)bytes));
+#endif
+      return __builtin_convertvector(bytes, Bits);
     }
     static QUOIN_INLINE void store_bytes(std::uint8_t *to, const Bits &value,
                                          const Bits &mask)
@@ -67,15 +70,30 @@ namespace quoin
     }
     static QUOIN_INLINE void store_bytes(std::uint8_t *to, const Bits &value)
     {
-      Bytes bytes;
+      const Bytes bytes = to_bytes(value);
+      std::memcpy(to, &bytes, sizeof(bytes));
+    }
+
+    /** The lowest byte of each lane. */
+    static QUOIN_INLINE Bytes to_bytes(const Bits &value)
+    {
 #ifdef __AVX512F__
       if constexpr (lanes == 8)
-        bytes = (Bytes)_mm_cvtsi128_si64(
+        return (Bytes)_mm_cvtsi128_si64(
             _mm512_maskz_cvtepi64_epi8(0xff, (__m512i)value));
-      else
 #endif
-        bytes = __builtin_convertvector(value, Bytes);
-      std::memcpy(to, &bytes, sizeof(bytes));
+#ifdef __AVX2__
+      if constexpr (lanes == 4)
+      {
+        // Bytes 0 and 8 of both halves to their beginnings.
+        const __m256i pairs = _mm256_shuffle_epi8(
+            (__m256i)value, _mm256_set1_epi64x(0x0800));
+        return (Bytes)_mm_cvtsi128_si32(
+            _mm_unpacklo_epi16(_mm256_castsi256_si128(pairs),
+                               _mm256_extracti128_si256(pairs, 1)));
+      }
+#endif
+      return __builtin_convertvector(value, Bytes);
     }
 
     static QUOIN_INLINE Value absolute(const Value &a)

@@ -18,7 +18,10 @@ namespace quoin
     using Bits  = typename F::Bits;
     using Slips = SlipLanes<lanes, dim>;
 
-    explicit LawLanes(const CoulombLaw &law) : law(law)
+    explicit LawLanes(const CoulombLaw &law)
+      : law(law), peak(law.peak), residual(law.residual),
+        normal_stiffness(Value{} + law.normal_stiffness),
+        shear_stiffness(Value{} + law.shear_stiffness)
     {
     }
 
@@ -28,18 +31,15 @@ namespace quoin
       const Bits state           = points.load_state();
       const Bits intact          = state == number(JointState::intact);
       const Value none{};
-      const Value tension
-          = intact ? none + law.peak.tension : none + law.residual.tension;
-      const Value cohesion
-          = intact ? none + law.peak.cohesion : none + law.residual.cohesion;
-      const Value friction
-          = intact ? none + law.peak.friction : none + law.residual.friction;
+      const Value tension  = intact ? peak.tension : residual.tension;
+      const Value cohesion = intact ? peak.cohesion : residual.cohesion;
+      const Value friction = intact ? peak.friction : residual.friction;
 
       points.sigma
-          = law.normal_stiffness
+          = normal_stiffness
             * (points.opening - F::load(points.of(at.plastic_opening)));
       points.tau
-          = law.shear_stiffness
+          = shear_stiffness
             * (points.slip - Slips::load(points.slips_of(at.plastic_slip)));
       points.elastic = (points.sigma <= tension)
                        & (magnitude(points.tau) <= F::maximum(
@@ -122,6 +122,18 @@ namespace quoin
     }
 
   private:
+    /** A strength in all lanes. */
+    struct Strength
+    {
+      explicit Strength(const JointStrength &strength)
+        : tension(Value{} + strength.tension),
+          cohesion(Value{} + strength.cohesion),
+          friction(Value{} + strength.friction)
+      {
+      }
+      Value tension, cohesion, friction;
+    };
+
     static constexpr Bits none_of_state{};
 
     static constexpr int number(const JointState state)
@@ -134,6 +146,9 @@ namespace quoin
     }
 
     const CoulombLaw law;
+    // In all lanes, as registers are too few to keep them there.
+    const Strength peak, residual;
+    const Value normal_stiffness, shear_stiffness;
   };
 } // namespace quoin
 
