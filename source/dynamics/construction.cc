@@ -192,6 +192,9 @@ namespace quoin
         state.energy.external -= 0.5 * state.previous_time_step
                                  * (held[i][d] + lost[i][d])
                                  * state.velocity[i][d];
+    // The water that leaves is a load, whose work over that half step is not
+    // booked yet.
+    solver.add_water_between(blocks, state, held.data());
 
     state.block_marks.resize(model.nodes().table().n_blocks(),
                              block_mark::present);

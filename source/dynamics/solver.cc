@@ -167,6 +167,16 @@ namespace quoin
   }
 
   template <int dim>
+  void Solver<dim>::add_water_between(const std::vector<unsigned int> &blocks,
+                                      const State<dim> &state,
+                                      dealii::Tensor<1, dim> *force) const
+  {
+    if constexpr (dim == 2)
+      if (all.water)
+        all.water->add_forces_between(blocks, state, force);
+  }
+
+  template <int dim>
   void Solver<dim>::save(State<dim> &state) const
   {
     if constexpr (dim == 2)

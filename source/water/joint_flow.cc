@@ -251,38 +251,60 @@ namespace quoin
     return { water.inflow, water.outflow, water.stored, water.residual };
   }
 
+  void JointFlow::add_forces_in(
+      const unsigned int c, const JointFlowState &water,
+      std::map<unsigned int, dealii::Tensor<1, 2>> &sum) const
+  {
+    const NodeExchange &exchange = node_map.exchange();
+    const FlowChannel &channel   = flow_network.channels()[c];
+    const JointChannel &face     = places.faces[c];
+    double p[2];
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      p[k] = water.pressure[channel.nodes[k]];
+      if (!given.has_suction)
+        p[k] = std::max(p[k], 0.);
+    }
+    const dealii::Tensor<1, 2> normal = normal_of(face);
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      // Of linear faces the integral of a linear pressure; halves of quadratic
+      // faces have the weights of Simpson's rule.
+      const double size = node_map.cells().is_quadratic
+                              ? face.areas[k] * p[k]
+                              : channel.thickness * channel.length / 6.
+                                    * (2. * p[k] + p[1 - k]);
+      for (const auto &[node, sign] :
+           { std::pair(face.lower[k], -1.), std::pair(face.upper[k], 1.) })
+        if (exchange.owns(node))
+          sum[exchange.local(node)] += sign * size * normal;
+    }
+  }
+
+  void JointFlow::add_forces_between(const std::vector<unsigned int> &blocks,
+                                     const State<2> &state,
+                                     dealii::Tensor<1, 2> *force) const
+  {
+    const JointFlowState &water = state.get<JointFlowState>();
+    std::map<unsigned int, dealii::Tensor<1, 2>> sum;
+    for (unsigned int c = 0; water.acts && c < places.faces.size(); ++c)
+    {
+      const auto &[lower, upper] = places.faces[c].blocks;
+      if (!state.is_absent(lower) && !state.is_absent(upper)
+          && std::count(blocks.begin(), blocks.end(), lower)
+                 != std::count(blocks.begin(), blocks.end(), upper))
+        add_forces_in(c, water, sum);
+    }
+    for (const auto &[node, part] : sum)
+      force[node] += part;
+  }
+
   void JointFlow::find_forces()
   {
     std::map<unsigned int, dealii::Tensor<1, 2>> sum;
-    const NodeExchange &exchange = node_map.exchange();
     for (unsigned int c = 0; now.acts && c < places.faces.size(); ++c)
-    {
-      const FlowChannel &channel = flow_network.channels()[c];
-      if (!channel.is_open)
-        continue;
-      const JointChannel &face = places.faces[c];
-      double p[2];
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        p[k] = now.pressure[channel.nodes[k]];
-        if (!given.has_suction)
-          p[k] = std::max(p[k], 0.);
-      }
-      const dealii::Tensor<1, 2> normal = normal_of(face);
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        // Of linear places.faces the integral of a linear pressure; halves of
-        // quadratic places.faces have the weights of Simpson's rule.
-        const double size = node_map.cells().is_quadratic
-                                ? face.areas[k] * p[k]
-                                : channel.thickness * channel.length / 6.
-                                      * (2. * p[k] + p[1 - k]);
-        for (const auto &[node, sign] :
-             { std::pair(face.lower[k], -1.), std::pair(face.upper[k], 1.) })
-          if (exchange.owns(node))
-            sum[exchange.local(node)] += sign * size * normal;
-      }
-    }
+      if (flow_network.channels()[c].is_open)
+        add_forces_in(c, now, sum);
     force_nodes.clear();
     forces.clear();
     for (const auto &[node, force] : sum)

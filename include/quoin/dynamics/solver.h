@@ -90,6 +90,12 @@ namespace quoin
     virtual void cut_liners(const std::vector<unsigned int> &blocks,
                             State<dim> &state);
 
+    /** Adds the forces of the water in joints between @p blocks, which are
+        about to be taken away, and others to the owned nodes of both [N]. */
+    void add_water_between(const std::vector<unsigned int> &blocks,
+                           const State<dim> &state,
+                           dealii::Tensor<1, dim> *force) const;
+
     /** Throws a RunError if the motion is no longer finite, which names the
         load if one is not; collective. */
     void check_finite(const State<dim> &state) const;

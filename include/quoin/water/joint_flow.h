@@ -10,6 +10,7 @@
 #include <quoin/water/joint_channels.h>
 #include <quoin/water/water_parameters.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -91,6 +92,12 @@ namespace quoin
     }
     void prepare(State<2> &state) const override;
 
+    /** Adds the forces of the water of @p state in joints between @p blocks,
+        which are about to be taken away, and others to the owned nodes of both
+        [N]. */
+    void add_forces_between(const std::vector<unsigned int> &blocks,
+                            const State<2> &state,
+                            dealii::Tensor<1, 2> *force) const;
     /** Begins stage @p name, with steady flow at once if that is wanted.
         Collective. */
     void begin_stage(const std::string &name, State<2> &state);
@@ -168,6 +175,10 @@ namespace quoin
     /** Adds what flows until @p time after the last solution, if that is
         steady, to the volumes of @p water. */
     void flow_on(double time, JointFlowState &water) const;
+    /** Adds the forces of the water @p water in the channel @p c to owned
+        nodes. */
+    void add_forces_in(unsigned int c, const JointFlowState &water,
+                       std::map<unsigned int, dealii::Tensor<1, 2>> &sum) const;
     /** Forces of the pressures of now. */
     void find_forces();
 

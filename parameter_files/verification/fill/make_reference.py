@@ -10,12 +10,15 @@ Hooke's law with the modulus M = E (1 - nu)/((1 + nu)(1 - 2 nu)) of each:
   top of the block     -(rho_f g h^2/2 + p h)/M_f - q/kn + u_c - u_c when placed.
 
 q is what the block exerts, or what is not released of that. A row a stage.
+
+With water of the pressure w in the joint the law of the joint bears q - w; water and joint
+together exert q, and go together when the block is excavated.
 """
 import os
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 G, HEIGHT, BLOCK, STIFFNESS = 10.0, 4.0, 2.0, 1e10
-PRESSURE = 10e3
+PRESSURE, WATER = 10e3, 20e3
 
 
 def modulus(young, nu):
@@ -41,17 +44,31 @@ def placed(material):
     return column(q), top, -column(0) - q / STIFFNESS, -q
 
 
-def main():
-    weight = SOIL[0] * G * BLOCK + PRESSURE
-    rows = [(column(0), 0, 0, 0), placed(SOIL),
-            (column(0.5 * weight), 0, 0, 0), (column(0), 0, 0, 0),
-            placed(CONCRETE)]
-    with open(os.path.join(HERE, "reference.csv"), "w") as stream:
-        stream.write("stage [-],base_top [m],fill_top [m],opening [m],"
-                     "traction [Pa]\n")
+def above_water(material):
+    """Column, traction and pressure of the water of the joint."""
+    settled, _, _, traction = placed(material)
+    return settled, traction + WATER, WATER
+
+
+def write(name, columns, rows):
+    with open(os.path.join(HERE, name), "w") as stream:
+        stream.write("stage [-]," + columns + "\n")
         for i, row in enumerate(rows):
             stream.write("%d," % (i + 1)
                          + ",".join("%.9g" % value for value in row) + "\n")
+
+
+def main():
+    weight = SOIL[0] * G * BLOCK + PRESSURE
+    write("reference.csv",
+          "base_top [m],fill_top [m],opening [m],traction [Pa]",
+          [(column(0), 0, 0, 0), placed(SOIL),
+           (column(0.5 * weight), 0, 0, 0), (column(0), 0, 0, 0),
+           placed(CONCRETE)])
+    write("reference_water.csv",
+          "base_top [m],traction [Pa],pressure [Pa]",
+          [(column(0), 0, 0), above_water(SOIL), (column(0.5 * weight), 0, 0),
+           (column(0), 0, 0), above_water(CONCRETE)])
 
 
 if __name__ == "__main__":
