@@ -46,9 +46,14 @@ namespace quoin
     for (unsigned int b = 0; b < blocks.size(); ++b)
       if (blocks[b].number == number)
         return b;
-    blocks.push_back({ number, model.nodes().table().is_rigid[number],
-                       inertia_of_block(model, number),
-                       owned_nodes(model, number) });
+    Block block{ number,
+                 model.nodes().table().is_rigid[number],
+                 inertia_of_block(model, number),
+                 owned_nodes(model, number),
+                 {} };
+    for (const unsigned int i : block.nodes)
+      block.mass.push_back(model.mass()[i]);
+    blocks.push_back(block);
     return blocks.size() - 1;
   }
 
@@ -105,11 +110,11 @@ namespace quoin
       }
       if (block.is_rigid)
         continue;
-      for (const unsigned int i : block.nodes)
+      for (std::size_t k = 0; k < block.nodes.size(); ++k)
       {
-        const NodeRecord<2> &node     = state.nodes[i];
-        const double m                = share * model.mass()[i];
-        const dealii::Tensor<1, 2> &v = state.velocity[i];
+        const NodeRecord<2> &node     = state.nodes[block.nodes[k]];
+        const double m                = share * block.mass[k];
+        const dealii::Tensor<1, 2> &v = state.velocity[block.nodes[k]];
         sum.momentum += m * v;
         sum.spin += m * cross(node.X - block.rest.centroid + node.u, v);
       }
@@ -132,10 +137,10 @@ namespace quoin
       }
       if (block.is_rigid)
         continue;
-      for (const unsigned int i : block.nodes)
+      for (std::size_t k = 0; k < block.nodes.size(); ++k)
       {
-        const NodeRecord<2> &node    = state.nodes[i];
-        const double m               = model.mass()[i];
+        const NodeRecord<2> &node    = state.nodes[block.nodes[k]];
+        const double m               = block.mass[k];
         const dealii::Tensor<1, 2> r = node.X - block.rest.centroid;
         sum.sine += m * cross(r, node.u);
         sum.displacement += m * node.u;

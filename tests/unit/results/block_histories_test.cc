@@ -93,6 +93,32 @@ TEST(BlockHistories, RotationCountsTurnsOfADeformableBlock)
   }
 }
 
+TEST(BlockHistories, MotionDoesNotDependOnADensityThatChanges)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}));
+  std::vector<HistoryParameters> columns;
+  add(columns, moves, "b");
+  add(columns, velocity, "b");
+  BlockHistories histories(columns, both_blocks(run.nodes), run.model, nullptr);
+  // As where a stage fills in a heavier block.
+  ModelProperties properties = run.model.properties();
+  for (MaterialParameters &material : properties.materials)
+    material.elastic.density *= 1.25;
+  run.model.set_properties(properties, run.state.get<ConstructionState<2>>());
+  place_upper(run, 100. * degree, 1.1, 100., -50., 2.);
+  histories.before_step(run.state);
+  const auto row = histories.after_step(run.state);
+  EXPECT_NEAR(row[0], 100., 1e-12);
+  EXPECT_NEAR(row[1], -50., 1e-12);
+  EXPECT_NEAR(row[2], 100., 1e-10);
+  EXPECT_NEAR(row[3], 3., 1e-13);
+  EXPECT_NEAR(row[4], -4., 1e-13);
+  EXPECT_NEAR(row[5], 2. / degree, 1e-9);
+}
+
 TEST(BlockHistories, VelocitiesLieBetweenThoseOfTheStepsBesideThem)
 {
   BlockMesh<2> mesh;
