@@ -40,6 +40,29 @@ namespace quoin
       return result;
     }
 
+    /** Refuses supports and forces of the ends of a closed beam. */
+    void refuse_ends(const BeamParameters &beam)
+    {
+      const std::string names[] = { "Start", "End" };
+      const auto refuse         = [&](const std::string &entry)
+      {
+        throw InputError("section 'Beams/" + beam.name + "': '" + entry
+                         + "' is that of an end, but the beam is closed and "
+                           "has none, so that it would do nothing. Leave it "
+                           "out, or let the line end before it meets itself.");
+      };
+      for (const unsigned int end : { 0, 1 })
+      {
+        const BeamSupport &support = beam.supports[end];
+        if (support.holds_x || support.holds_y || support.holds_rotation)
+          refuse(names[end]);
+        for (const unsigned int d : { 0, 1 })
+          if (const TimeFunction &force = beam.forces[end][d];
+              !force.is_constant() || force({ 0., 0. }) != 0.)
+            refuse(names[end] + " force " + "xy"[d]);
+      }
+    }
+
     JointLaw law_of(const BeamParameters &liner,
                     const std::vector<JointSetParameters> &sets)
     {
@@ -73,6 +96,8 @@ namespace quoin
       LinedBoundary nodes_of_beam
           = beam.is_liner() ? lined_boundary(beam, nodes, group_thickness)
                             : free_line(beam);
+      if (nodes_of_beam.is_closed)
+        refuse_ends(beam);
       interface.first  = n_points;
       interface.points = std::move(nodes_of_beam.points);
       beams.push_back(
