@@ -307,6 +307,7 @@ namespace quoin
     for (const NodalLoad<dim> *load : loads.nodal)
       load->add_loads(time, force.data());
     loads.release.add_loads(time, force.data());
+    loads.arrival.add_loads(time, force.data());
     const auto absent = absent_nodes(*system.model, state);
     ForceBalance result;
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)

@@ -254,6 +254,7 @@ namespace quoin
     if (acting.pattern)
       forces.push_back(acting.pattern.get());
     forces.push_back(&acting.release);
+    forces.push_back(&acting.arrival);
     stepper.set_operators(forces, begun, acting.constraints, stage);
   }
 
@@ -339,6 +340,28 @@ namespace quoin
   }
 
   template <int dim>
+  Arrival<dim> ExplicitSolver<dim>::arrival(const double start) const
+  {
+    if (stage.fill.empty() || stage.end != StageEnd::static_ratio)
+      return {};
+    // Placed blocks have no stress that their weight may balance.
+    double duration = 0.;
+    for (const NodalLoad<dim> *load : acting.nodal)
+      if (load->traits().is_gravity)
+        duration = std::max(duration, load->ramp_where_begun(quiet_time()));
+    const NodeMap<dim> &nodes = model.nodes();
+    const auto fills
+        = find_groups(nodes.table(), stage.fill,
+                      "section 'Stages/" + stage.name + "', 'Fill'");
+    std::vector<unsigned int> placed;
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      if (fills[nodes.table().group[nodes.block_of_node(i)]])
+        placed.push_back(i);
+    return Arrival<dim>(placed, acting.nodal, { 0., start }, nodes.n_local(),
+                        duration);
+  }
+
+  template <int dim>
   void ExplicitSolver<dim>::begin_stage(const StageParameters &new_stage,
                                         const StageParameters *previous,
                                         State<dim> &state)
@@ -352,6 +375,7 @@ namespace quoin
     scale_masses(stage, state.next_load_start(), state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_loads(previous, automatic_ramp());
+    acting.arrival = arrival(state.next_load_start());
     collect_operators(previous);
     for (const auto &constraint : all.constraints)
       if (!all.acts_in(*constraint, stage))
@@ -387,6 +411,7 @@ namespace quoin
     scale_masses(stage, state.load_start(), state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_loads(previous, automatic_ramp());
+    acting.arrival = arrival(state.load_start());
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->resume_stage(state);
     state = saved;

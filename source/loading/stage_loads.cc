@@ -76,7 +76,8 @@ namespace quoin
     const auto present  = values(state.load_start(), now);
     if (present != values(state.load_start(), before))
       return true;
-    if (release.changes() && release.share(before) != release.share(now))
+    if ((release.changes() && release.share(before) != release.share(now))
+        || arrival.share(before) != arrival.share(now))
       return true;
     for (double t = late_time; t > std::max(now, earliest); t *= 0.9)
       if (present != values(state.load_start(), t))
@@ -87,7 +88,8 @@ namespace quoin
   template <int dim>
   double StageLoads<dim>::growth() const
   {
-    double last = release.changes() ? release.duration() : 0.;
+    double last = std::max(release.changes() ? release.duration() : 0.,
+                           arrival.duration());
     for (const NodalLoad<dim> *load : nodal)
       last = std::max(last, load->ramp());
     return last;

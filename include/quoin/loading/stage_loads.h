@@ -5,6 +5,7 @@
 #define quoin_loading_stage_loads_h
 
 #include <quoin/model/free_bodies.h>
+#include <quoin/loading/arrival.h>
 #include <quoin/loading/load_pattern.h>
 #include <quoin/loading/release.h>
 #include <quoin/stages/stage_parameters.h>
@@ -32,6 +33,7 @@ namespace quoin
     /** Water in the joints, with given values at its boundaries; null: none. */
     const JointFlow *water = nullptr;
     Release<dim> release; /**< release of the forces of excavated blocks */
+    Arrival<dim> arrival; /**< growth of the loads on placed blocks */
     /** Loads that one factor scales, beside 'nodal'; null: none. */
     std::shared_ptr<LoadPattern<dim>> pattern;
 

@@ -77,8 +77,13 @@ namespace quoin
         duration that is given or @p automatic [s]; 0: it is there at once. */
     void begin_stage(const bool begins, const double automatic)
     {
-      ramp_duration = !begins ? 0. : given_ramp >= 0. ? given_ramp : automatic;
+      ramp_duration = begins ? ramp_where_begun(automatic) : 0.;
       begins_here   = begins;
+    }
+    /** That duration where the load begins [s]. */
+    double ramp_where_begun(const double automatic) const
+    {
+      return given_ramp >= 0. ? given_ramp : automatic;
     }
     double ramp() const
     {

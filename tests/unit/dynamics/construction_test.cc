@@ -184,6 +184,58 @@ TEST(Construction, EnergyOfMovingBlocksIsAccountedFor)
   }
 }
 
+TEST(Construction, WeightOfPlacedBlocksComesQuietly)
+{
+  // Without damping a column goes down much farther under a block whose weight
+  // is there at once, and hardly farther under one whose weight grows.
+  for (const bool sudden : { false, true })
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 1, 8);
+    LoadParameters weight = gravity("0", "-10");
+    weight.groups         = { "upper" };
+    if (sudden)
+      weight.ramp_duration = 0.;
+    TestRun run(mesh, without_stress(),
+                { weight, motion("base", "bottom", "0", "0"),
+                  motion("rollers", "sides", "0", "") });
+    std::vector<StageParameters> stages
+        = { stage_of({ "upper" }, {}), stage_of({}, { "upper" }) };
+    for (StageParameters &stage : stages)
+    {
+      stage.loads = { "gravity", "base", "rollers" };
+      stage.end   = StageEnd::static_ratio;
+    }
+    Construction construction(run.model, stages);
+    construction.begin_stage(0, run.solver, run.state);
+    construction.begin_stage(1, run.solver, run.state);
+    run.begin(stages[1], 0.8, &stages[0]);
+    const double quiet = run.solver.quiet_time();
+    double lowest = 0., sum = 0., largest_residual = 0.;
+    unsigned int n = 0;
+    while (run.state.time < 5. * quiet)
+    {
+      run.solver.step(run.state, { true, false });
+      largest_residual = std::max(largest_residual,
+                                  std::abs(run.solver.energies().residual()));
+      double top       = 0.;
+      for (const NodeRecord<2> &node : run.state.nodes)
+        top = std::min(top, node.u[1]);
+      lowest = std::min(lowest, top);
+      if (run.state.time <= quiet)
+        continue;
+      sum += top;
+      ++n;
+    }
+    EXPECT_LT(largest_residual, 1e-6 * run.solver.energies().throughput());
+    const double overshoot = lowest / (sum / n) - 1.;
+    if (sudden)
+      EXPECT_GT(overshoot, 0.5);
+    else
+      EXPECT_LT(overshoot, 0.05);
+  }
+}
+
 namespace
 {
   /** Two blocks, one on the other, with a wall along both of them. */

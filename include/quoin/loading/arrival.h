@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loading_arrival_h
+#define quoin_loading_arrival_h
+
+#include <quoin/base/node_record.h>
+#include <quoin/loads/nodal_load.h>
+#include <quoin/operators/force_operator.h>
+
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * What lets the loads on blocks that a stage places grow from zero by half a
+   * cosine s(t) of load time, as gravity that begins there does: beside these
+   * loads act the forces (s - 1) F, F those of the loads where the stage
+   * begins.
+   */
+  template <int dim>
+  class Arrival : public ForceOperator<dim>
+  {
+  public:
+    Arrival() = default;
+
+    /** @p loads on the owned nodes @p placed at the time @p start of the stage;
+        @p n_local: number of local nodes; @p duration: of their growth [s]. */
+    Arrival(const std::vector<unsigned int> &placed,
+            const std::vector<const NodalLoad<dim> *> &loads,
+            const TimePoint &start, std::size_t n_local, double duration);
+
+    /** Duration of the growth [s]; 0: nothing grows. */
+    double duration() const
+    {
+      return ramp_duration;
+    }
+    /** s(@p load_time) [-]. */
+    double share(double load_time) const;
+
+    const char *kind() const override
+    {
+      return "loads";
+    }
+    void add_loads(const TimePoint &time,
+                   dealii::Tensor<1, dim> *force) const override;
+    double
+    external_power(const TimePoint &time,
+                   const dealii::Tensor<1, dim> *velocity) const override;
+
+  private:
+    std::vector<unsigned int> nodes;            /**< of this rank */
+    std::vector<dealii::Tensor<1, dim>> forces; /**< F of each of them [N] */
+    double ramp_duration = 0.;
+  };
+} // namespace quoin
+
+#endif
