@@ -86,11 +86,10 @@ namespace quoin
       if constexpr (lanes == 4)
       {
         // Bytes 0 and 8 of both halves to their beginnings.
-        const __m256i pairs = _mm256_shuffle_epi8(
-            (__m256i)value, _mm256_set1_epi64x(0x0800));
-        return (Bytes)_mm_cvtsi128_si32(
-            _mm_unpacklo_epi16(_mm256_castsi256_si128(pairs),
-                               _mm256_extracti128_si256(pairs, 1)));
+        const __m256i pairs
+            = _mm256_shuffle_epi8((__m256i)value, _mm256_set1_epi64x(0x0800));
+        return (Bytes)_mm_cvtsi128_si32(_mm_unpacklo_epi16(
+            _mm256_castsi256_si128(pairs), _mm256_extracti128_si256(pairs, 1)));
       }
 #endif
       return __builtin_convertvector(value, Bytes);

@@ -4,48 +4,12 @@
 #ifndef quoin_base_node_record_h
 #define quoin_base_node_record_h
 
-#include <deal.II/base/point.h>
+#include <quoin/base/aligned_array.h>
 
-#include <cstddef>
-#include <new>
-#include <vector>
+#include <deal.II/base/point.h>
 
 namespace quoin
 {
-  /** Allocator of 64-byte aligned arrays for vector loads. */
-  template <typename T>
-  struct CacheAlignedAllocator
-  {
-    using value_type        = T;
-    CacheAlignedAllocator() = default;
-    template <typename U>
-    CacheAlignedAllocator(const CacheAlignedAllocator<U> &)
-    {
-    }
-    T *allocate(const std::size_t n)
-    {
-      return static_cast<T *>(
-          ::operator new(n * sizeof(T), std::align_val_t(64)));
-    }
-    void deallocate(T *p, std::size_t)
-    {
-      ::operator delete(p, std::align_val_t(64));
-    }
-    template <typename U>
-    bool operator==(const CacheAlignedAllocator<U> &) const
-    {
-      return true;
-    }
-    template <typename U>
-    bool operator!=(const CacheAlignedAllocator<U> &) const
-    {
-      return false;
-    }
-  };
-
-  template <typename T>
-  using AlignedArray = std::vector<T, CacheAlignedAllocator<T>>;
-
   /**
    * One node of a block: reference position X and displacement u [m]; the
    * current position is X + u. They are kept together, in two dimensions in 32
