@@ -120,7 +120,7 @@ namespace quoin
       if (step.takes)
         take_away(step, solver, state);
       if (step.places)
-        place(step, solver, state);
+        place(step, state);
       if (step.changes)
         change_properties(model, properties_after(stage + 1), state);
       state.energy.external += stored_energy(state) - before;
@@ -219,8 +219,7 @@ namespace quoin
   }
 
   template <int dim>
-  void Construction<dim>::place(const Step &step, const Solver<dim> &solver,
-                                State<dim> &state) const
+  void Construction<dim>::place(const Step &step, State<dim> &state) const
   {
     const auto &joints = model.joints();
     const auto blocks  = blocks_in(step.fill);
@@ -232,18 +231,14 @@ namespace quoin
                          state.template get<ConstructionState<dim>>());
     place_blocks(model, blocks, state);
     model.nodes().exchange().update_ghosts(state.nodes.data());
-    std::vector<unsigned int> begun;
     for (unsigned int i = 0; i < joint_faces(joints).size(); ++i)
     {
       const JointNodes<dim> &face
           = model.nodes().faces().joints[joint_faces(joints)[i].face];
-      if ((!step.fill[face.groups[0]] && !step.fill[face.groups[1]])
-          || is_at_absent_block(model, i, state))
-        continue;
-      begin_joint_anew(joints, i, state);
-      begun.push_back(i);
+      if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
+          && !is_at_absent_block(model, i, state))
+        begin_joint_anew(joints, i, state);
     }
-    solver.begin_water_anew(begun, state);
   }
 
   // -- checks of the stages

@@ -177,15 +177,6 @@ namespace quoin
   }
 
   template <int dim>
-  void Solver<dim>::begin_water_anew(const std::vector<unsigned int> &joints,
-                                     State<dim> &state) const
-  {
-    if constexpr (dim == 2)
-      if (all.water)
-        all.water->begin_joints_anew(joints, state);
-  }
-
-  template <int dim>
   void Solver<dim>::save(State<dim> &state) const
   {
     if constexpr (dim == 2)

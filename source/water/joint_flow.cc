@@ -50,7 +50,6 @@ namespace quoin
     now.point_saturation.assign(2 * n, 0.);
     now.flow.assign(n, 0.);
     now.velocity.assign(n, 0.);
-    now.opening_at_start.assign(2 * n, 0.);
   }
 
   void JointFlow::prepare(State<2> &state) const
@@ -91,8 +90,7 @@ namespace quoin
         continue;
       const auto gaps = joint_gaps(segment, nodes);
       for (unsigned int k = 0; k < 2; ++k)
-        openings[2 * places.of_segment[i] + k]
-            = gaps[k][0] - now.opening_at_start[2 * i + k];
+        openings[2 * places.of_segment[i] + k] = gaps[k][0];
     }
     dealii::Utilities::MPI::sum(openings, node_map.communicator(), openings);
     std::fill(compliance.begin(), compliance.end(), 0.);
@@ -313,18 +311,6 @@ namespace quoin
     {
       force_nodes.push_back(node);
       forces.push_back(force);
-    }
-  }
-
-  void JointFlow::begin_joints_anew(const std::vector<unsigned int> &segments,
-                                    State<2> &state) const
-  {
-    JointFlowState &water = state.get<JointFlowState>();
-    for (const unsigned int i : segments)
-    {
-      const auto gaps = joint_gaps(joints.segments()[i], state.nodes.data());
-      for (unsigned int k = 0; k < 2; ++k)
-        water.opening_at_start[2 * i + k] = gaps[k][0];
     }
   }
 

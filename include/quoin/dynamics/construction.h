@@ -87,8 +87,7 @@ namespace quoin
     double stored_energy(const State<dim> &state) const;
     void take_away(const Step &step, Solver<dim> &solver,
                    State<dim> &state) const;
-    void place(const Step &step, const Solver<dim> &solver,
-               State<dim> &state) const;
+    void place(const Step &step, State<dim> &state) const;
     /** Properties of the model after @p n stages. */
     ModelProperties properties_after(unsigned int n) const;
     /** Restores the model after @p n stages. */

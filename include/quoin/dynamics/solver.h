@@ -96,11 +96,6 @@ namespace quoin
                            const State<dim> &state,
                            dealii::Tensor<1, dim> *force) const;
 
-    /** Lets the water in @p joints, beside blocks that have been placed, count
-        their openings from now on. */
-    void begin_water_anew(const std::vector<unsigned int> &joints,
-                          State<dim> &state) const;
-
     /** Throws a RunError if the motion is no longer finite, which names the
         load if one is not; collective. */
     void check_finite(const State<dim> &state) const;

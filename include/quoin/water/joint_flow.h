@@ -37,8 +37,6 @@ namespace quoin
     std::vector<double> point_saturation; /**< filled share [-] */
     std::vector<double> flow;     /**< from point 0 to point 1 [m^3/s] */
     std::vector<double> velocity; /**< mean over the aperture [m/s] */
-    /** Openings with which joints began where a stage placed a block [m]. */
-    std::vector<double> opening_at_start;
 
     template <typename Visitor>
     void visit(Visitor &visitor)
@@ -50,7 +48,6 @@ namespace quoin
       visitor.own(point_saturation, 2, JointHistory::slice_name);
       visitor.own(flow, 1, JointHistory::slice_name);
       visitor.own(velocity, 1, JointHistory::slice_name);
-      visitor.own(opening_at_start, 2, JointHistory::slice_name);
     }
 
     template <typename Archive>
@@ -73,8 +70,7 @@ namespace quoin
    * ends of others there the pressure 0 unless another value is given.
    *
    * The pressure acts on the reference area, along its normal. Apertures follow
-   * from the openings of joints, which count from where the mesh or a stage has
-   * placed their blocks. In explicit steps the flow is solved every so
+   * from the openings of joints. In explicit steps the flow is solved every so
    * often with those of the moment, and goes on until the next solution; an
    * implicit solver iterates, see follow().
    */
@@ -102,10 +98,6 @@ namespace quoin
     void add_forces_between(const std::vector<unsigned int> &blocks,
                             const State<2> &state,
                             dealii::Tensor<1, 2> *force) const;
-    /** Lets @p segments of the joints begin anew at the positions of @p state,
-        where blocks beside them have been placed. */
-    void begin_joints_anew(const std::vector<unsigned int> &segments,
-                           State<2> &state) const;
     /** Begins stage @p name, with steady flow at once if that is wanted.
         Collective. */
     void begin_stage(const std::string &name, State<2> &state);

@@ -12,14 +12,13 @@ Hooke's law with the modulus M = E (1 - nu)/((1 + nu)(1 - 2 nu)) of each:
 q is what the block exerts, or what is not released of that. A row a stage.
 
 With water of the pressure w in the joint the law of the joint bears q - w; water and joint
-together exert q, and go together when the block is excavated. The aperture of the joint is less
-by (q - w)/kn than that of a joint without traction, whatever the column has settled before.
+together exert q, and go together when the block is excavated.
 """
 import os
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 G, HEIGHT, BLOCK, STIFFNESS = 10.0, 4.0, 2.0, 1e10
-PRESSURE, WATER, APERTURE = 10e3, 20e3, 1e-4
+PRESSURE, WATER = 10e3, 20e3
 
 
 def modulus(young, nu):
@@ -46,10 +45,9 @@ def placed(material):
 
 
 def above_water(material):
-    """Column, traction and pressure of the water of the joint, its aperture."""
-    settled, _, _, total = placed(material)
-    traction = total + WATER
-    return settled, traction, WATER, APERTURE + traction / STIFFNESS
+    """Column, traction and pressure of the water of the joint."""
+    settled, _, _, traction = placed(material)
+    return settled, traction + WATER, WATER
 
 
 def write(name, columns, rows):
@@ -68,10 +66,9 @@ def main():
            (column(0.5 * weight), 0, 0, 0), (column(0), 0, 0, 0),
            placed(CONCRETE)])
     write("reference_water.csv",
-          "base_top [m],traction [Pa],pressure [Pa],aperture [m]",
-          [(column(0), 0, 0, 0), above_water(SOIL),
-           (column(0.5 * weight), 0, 0, 0), (column(0), 0, 0, 0),
-           above_water(CONCRETE)])
+          "base_top [m],traction [Pa],pressure [Pa]",
+          [(column(0), 0, 0), above_water(SOIL), (column(0.5 * weight), 0, 0),
+           (column(0), 0, 0), above_water(CONCRETE)])
 
 
 if __name__ == "__main__":
