@@ -41,12 +41,13 @@ namespace quoin
       step.where = "section 'Stages/" + stage.name + "'";
       step.excavate
           = find_groups(table, stage.excavate, step.where + ", 'Excavate'");
-      step.fill    = find_groups(table, stage.fill, step.where + ", 'Fill'");
-      step.takes   = !stage.excavate.empty();
-      step.places  = !stage.fill.empty();
-      step.release = stage.release;
+      step.fill   = find_groups(table, stage.fill, step.where + ", 'Fill'");
+      step.takes  = !stage.excavate.empty();
+      step.places = !stage.fill.empty();
+      // A search for the factor of safety leaves the model as it was, and what
+      // supports it.
+      step.release = stage.safety ? 0. : stage.release;
       step.changes = stage.changes_properties();
-      // A search for the factor of safety leaves the model as it was.
       const StageParameters *strong
           = stage.safety ? previous_stage(stages, i) : &stage;
       step.strength = strong ? strong->strength_factor : 1.;

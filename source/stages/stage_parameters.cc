@@ -355,6 +355,16 @@ namespace quoin
           section->fail(name, "does not go with 'End = factor of safety', "
                               "which leaves the model as it was. Use a stage "
                               "of its own before it.");
+      for (const auto &[name, preset] :
+           { std::pair("Release", stage.release == 1.),
+             std::pair("Release duration", stage.release_duration < 0.),
+             std::pair("Release ramp", !stage.releases_linearly) })
+        if (!preset)
+          section->fail(name, "does not go with 'End = factor of safety', "
+                              "whose trials keep the support pressure of "
+                              "excavated blocks that the stage before has "
+                              "left. Release it in a stage of its own before, "
+                              "or remove this.");
       if (stage.strength_factor != 1.)
         section->fail("Strength factor",
                       "does not go with 'End = factor of safety', whose trials "

@@ -149,6 +149,29 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
   }
 }
 
+TEST(Construction, ASearchForTheFactorOfSafetyKeepsTheSupport)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, under_stress(), {});
+  std::vector<StageParameters> stages
+      = { stage_of({ "upper" }, {}, 0.25), stage_of({}, {}), stage_of({}, {}) };
+  stages[1].safety.emplace();
+  Construction construction(run.model, stages);
+  const auto left = [&]()
+  {
+    const HeldForces<2> &item
+        = run.state.get<ConstructionState<2>>().held.front();
+    return std::array<double, 2>{ item.left, item.left_at_end };
+  };
+  construction.begin_stage(0, run.solver, run.state);
+  EXPECT_EQ(left(), (std::array<double, 2>{ 1., 0.75 }));
+  construction.begin_stage(1, run.solver, run.state);
+  EXPECT_EQ(left(), (std::array<double, 2>{ 0.75, 0.75 }));
+  construction.begin_stage(2, run.solver, run.state);
+  EXPECT_EQ(left(), (std::array<double, 2>{ 0.75, 0. }));
+}
+
 TEST(Construction, PlacedBlocksAreFreeOfStress)
 {
   BlockMesh<2> mesh;
