@@ -8,6 +8,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/base/number_text.h>
+#include <quoin/contact/face_contacts.h>
 #include <quoin/joint_elements/joint_changes.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/reinforcement/bar_results.h>
@@ -375,14 +376,24 @@ namespace quoin
     const JointHistory &history = state.get<JointHistory>();
     double length               = 0.;
     for (unsigned int i = 0; i < segments.size(); ++i)
-      if (!history.handed_over[i] && !is_at_absent_block(model, i, state))
-      {
-        const auto &[a, b]     = faces[segments[i].face].groups;
-        const double thickness = model.thickness().common(a, b);
-        for (unsigned int k = 0; k < 2; ++k)
-          if (history.state[2 * i + k] == JointState::open)
-            length += segments[i].area[k] / thickness * segments[i].share;
-      }
+    {
+      const bool is_gone            = history.handed_over[i];
+      const BlockContacts *contacts = model.contacts();
+      const JointNodes<2> &face     = faces[segments[i].face];
+      if ((is_gone && !contacts) || is_at_absent_block(model, i, state))
+        continue;
+      // What lies on a face its own rank knows.
+      const double share = !is_gone         ? segments[i].share
+                           : face.is_own[0] ? 1.
+                                            : 0.;
+      const double thickness
+          = model.thickness().common(face.groups[0], face.groups[1]);
+      for (unsigned int k = 0; k < 2 && share > 0.; ++k)
+        if ((is_gone ? contact_on_face(*contacts, state, segments[i], k).state()
+                     : history.state[2 * i + k])
+            == JointState::open)
+          length += segments[i].area[k] / thickness * share;
+    }
     return length;
   }
 

@@ -364,7 +364,9 @@ namespace quoin
       }
     }
 
-    /** Considers joint points on @p curve; on all curves if it is empty. */
+    /** Considers joint points on @p curve; on all curves if it is empty. Of the
+        two ranks of a joint that of its lower face comes first, which knows
+        what lies on it. */
     void consider_joint_points(const Model<2> &model, const std::string &curve,
                                Nearest<2> &nearest)
     {
@@ -380,9 +382,11 @@ namespace quoin
           const auto &here  = nodes.point(face.lower[k]);
           const auto &other = nodes.point(face.lower[1 - k]);
           nearest.consider(here, 2 * i + k,
-                           [&] {
+                           [&]
+                           {
                              return Nearest<2>::place(
-                                 0., dealii::Point<2>(0.5 * (here + other)));
+                                 face.is_own[0] ? 0. : 1.,
+                                 dealii::Point<2>(0.5 * (here + other)));
                            });
         }
       }

@@ -5,6 +5,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/block_elements/triangle.h>
+#include <quoin/contact/face_contacts.h>
 #include <quoin/contact/law_fields.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/point_values.h>
@@ -32,10 +33,32 @@ namespace quoin
       return component == 0 ? point.state : point.plastic_shear;
     }
 
+    /** As joint_value() of what is no gap, of a joint that has become a
+        contact. */
+    double contact_value(const Model<2> &model, const unsigned int component,
+                         const unsigned int p, const State<2> &state)
+    {
+      const FaceContact contact = contact_on_face(
+          *model.contacts(), state, model.joints().segments()[p / 2], p % 2);
+      if (component == 4)
+        return static_cast<double>(contact.state());
+      if (component < 4)
+        return !contact.point   ? 0.
+               : component == 2 ? contact.point->normal_traction
+                                : contact.point->shear_traction;
+      const std::string name = component == 5 ? "damage" : "crushing";
+      return contact.point
+                 ? law_field(model.joints(), name, contact.set, *contact.point)
+                 : law_field(model.joints(), name, p,
+                             state.get<JointHistory>());
+    }
+
     double joint_value(const Model<2> &model, const unsigned int component,
                        const unsigned int p, const State<2> &state)
     {
       const JointHistory &history = state.get<JointHistory>();
+      if (component >= 2 && model.contacts() && history.handed_over[p / 2])
+        return contact_value(model, component, p, state);
       if (component < 2)
         return joint_gaps(model.joints().segments()[p / 2],
                           state.nodes.data())[p % 2][component];

@@ -154,6 +154,11 @@ namespace quoin
     {
       return near;
     }
+    /** Whether near_pairs() are those of @p contacts. */
+    bool is_bound(const ContactState &contacts) const
+    {
+      return bound_search == contacts.n_searches;
+    }
     /** Those that acted when forces were last added. */
     const ContactDashpots &dashpots() const
     {

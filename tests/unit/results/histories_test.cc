@@ -199,6 +199,63 @@ TEST(Histories, LengthOfOpenJoints)
   EXPECT_EQ(open(), 0.);
 }
 
+// Joints that slide or open become general contacts in large displacements, and
+// bear and open as those that stay joints.
+TEST(Histories, OfJointsGoOnWhenTheyHaveBecomeContacts)
+{
+  using Q                            = HistoryQuantity;
+  const std::array<double, 3> middle = { { 1., 2., 0. } };
+  const auto row                     = [&](const bool large, const double up)
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 3, 2);
+    ModelParameters parameters             = two_blocks();
+    JointSetParameters &joint              = parameters.joints[0];
+    joint.all_new_contacts                 = true;
+    coulomb_law(joint).peak                = { 0., 0.3, 0. };
+    coulomb_law(joint).residual            = { 0., 0.3, 0. };
+    parameters.large_displacements         = large;
+    parameters.contact.large_displacements = large;
+    const auto still = component(LoadQuantity::velocity, "0");
+    TestRun run(
+        mesh, parameters,
+        { platen("held", "lower", still, still, still),
+          platen("driven", "upper", component(LoadQuantity::velocity, "0.05"),
+                 still, still) });
+    for (unsigned int i = 0; i < run.state.nodes.size(); ++i)
+      if (run.nodes->block_of_node(i) == 1)
+        run.state.nodes[i].u[1] = up;
+    run.begin(stage_with({ "held", "driven" }));
+    const auto is_contact
+        = [&]() { return run.state.get<JointHistory>().handed_over[0] != 0; };
+    const double &slip = run.state.nodes[run.node(3., 4.)].u[0];
+    while (slip < 2e-3 || (large && !is_contact() && slip < 0.02))
+      run.step(1);
+    EXPECT_EQ(is_contact(), large);
+    Histories<2> histories(
+        { history(Q::joint, 2, middle), history(Q::joint, 3, middle),
+          history(Q::joint, 4, middle), history(Q::open_joints) },
+        run.model, run.solver, BoundaryGeometry(), BoundaryElementParameters(),
+        { false, false });
+    histories.before_step(run.state);
+    run.step(1);
+    return histories.after_step(run.state);
+  };
+  for (const bool large : { false, true })
+  {
+    const auto sliding = row(large, -1e-5);
+    EXPECT_NEAR(sliding[1], -2e5, 1.);
+    EXPECT_NEAR(sliding[2], 6e4, 1.);
+    EXPECT_EQ(sliding[3], double(JointState::slipping));
+    EXPECT_EQ(sliding[4], 0.);
+    const auto open = row(large, 1e-3);
+    EXPECT_EQ(open[1], 0.);
+    EXPECT_EQ(open[2], 0.);
+    EXPECT_EQ(open[3], double(JointState::open));
+    EXPECT_NEAR(open[4], 3., 1e-12);
+  }
+}
+
 TEST(Histories, HaveNoValueInADeletedBlock)
 {
   using Q = HistoryQuantity;
