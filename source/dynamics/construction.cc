@@ -232,6 +232,7 @@ namespace quoin
                          state.template get<ConstructionState<dim>>());
     place_blocks(model, blocks, state);
     model.nodes().exchange().update_ghosts(state.nodes.data());
+    count_from_placing(joints, state.template get<JointHistoryOf<dim>>());
     for (unsigned int i = 0; i < joint_faces(joints).size(); ++i)
     {
       const JointNodes<dim> &face

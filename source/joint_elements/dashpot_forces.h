@@ -79,8 +79,10 @@ namespace quoin
               [&](const unsigned int k, const PointMotion<dim> &motion)
               {
                 const unsigned int p = dim * i + k;
+                JointVector<dim> gap = motion.gap;
+                gap.shear = slip_since_placing(history, p, gap.shear);
                 return dashpot_tractions<dim>(
-                    law, read_point(law, history, p), motion.gap, motion.rate,
+                    law, read_point(law, history, p), gap, motion.rate,
                     pairs.times(i, damping,
                                 law.stiffness_at(history.normal_traction[p])));
               },

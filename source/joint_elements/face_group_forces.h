@@ -141,6 +141,30 @@ namespace quoin
     return of_points[h];
   }
 
+  /** Subtracts from the slips of the points of @p group, in the order of the
+      history, those that they had where blocks were placed, @p placed. */
+  template <int dim, int lanes>
+  void subtract_placed_slips(
+      const FaceGroup<dim, lanes> &group, const double *placed,
+      typename LaneFunctions<lanes>::Value (&slip)[dim - 1][dim])
+  {
+    constexpr unsigned int n = dim * (dim - 1); // of a face
+    alignas(64) double own[n * lanes]{};
+    placed += n * group.first;
+    if (group.size < lanes)
+    {
+      std::copy_n(placed, n * group.size, own);
+      placed = own;
+    }
+    for (unsigned int h = 0; h < dim; ++h)
+    {
+      const auto before
+          = SlipLanes<lanes, dim>::load(placed + (dim - 1) * h * lanes);
+      for (unsigned int c = 0; c < dim - 1; ++c)
+        slip[c][h] -= before.component[c];
+    }
+  }
+
   template <int dim>
   template <typename Law, typename History>
   void FaceGroups<dim>::add_forces(const unsigned int set, const Law &law,
@@ -179,6 +203,8 @@ namespace quoin
         F::interleave(faces.opening, opening);
         for (unsigned int c = 0; c < dim - 1; ++c)
           F::interleave(faces.slip[c], slip[c]);
+        if (!history.placed_slip.empty())
+          subtract_placed_slips(group, history.placed_slip.data(), slip);
         if (F::all(of_face))
           std::fill_n(there, dim, of_face);
         else

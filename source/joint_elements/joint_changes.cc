@@ -37,7 +37,8 @@ namespace quoin
       point.normal_traction = at_rest.normal_traction;
       point.shear_traction  = at_rest.shear_traction;
       point.plastic_opening = at_rest.plastic_opening + gap[0];
-      point.plastic_slip    = at_rest.plastic_slip + gap[1];
+      point.plastic_slip
+          = at_rest.plastic_slip + slip_since_placing(history, p, gap[1]);
       write_point(point, history, p);
     }
   } // namespace
@@ -145,12 +146,20 @@ namespace quoin
              {
                for (unsigned int k = 0; k < 2; ++k)
                {
+                 const unsigned int p = 2 * i + k;
                  PointOf<decltype(law)> point;
-                 point.plastic_opening = gap[k][0];
-                 point.plastic_slip    = gap[k][1];
-                 write_point(point, history, 2 * i + k);
+                 point.plastic_opening     = gap[k][0];
+                 history.placed_opening[p] = gap[k][0];
+                 history.placed_slip[p]    = gap[k][1];
+                 write_point(point, history, p);
                }
              });
+  }
+
+  void count_from_placing(const MatchedJoints &joints, JointHistory &history)
+  {
+    history.placed_slip.resize(joints.n_points(), 0.);
+    history.placed_opening.resize(joints.n_points(), 0.);
   }
 
   void keep_joint_tractions(const MatchedJoints &joints, State<2> &state)

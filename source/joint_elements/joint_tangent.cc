@@ -77,7 +77,8 @@ namespace quoin
       std::visit(
           [&](const auto &law)
           {
-            point = respond<2>(law, opening, slip, broken[p],
+            point = respond<2>(law, opening,
+                               slip_since_placing(history, p, slip), broken[p],
                                area * segment.share, history, p, energy);
           },
           joints.laws()[segment.set]);

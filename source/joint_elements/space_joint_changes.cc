@@ -149,11 +149,16 @@ namespace quoin
           {
             PointOf<decltype(law), 3> point;
             point.plastic_opening = gaps[k][0];
-            point.plastic_slip    = slip_of(gaps[k]);
+            set_slip<3>(history.placed_slip, 3 * i + k, slip_of(gaps[k]));
             write_point(point, history, 3 * i + k);
           }
         },
         joints.laws()[face.set]);
+  }
+
+  void count_from_placing(const SpaceJoints &joints, SpaceJointHistory &history)
+  {
+    history.placed_slip.resize(2 * joints.n_points(), 0.);
   }
 
   void keep_joint_tractions(const SpaceJoints &joints, State<3> &state)
@@ -181,7 +186,9 @@ namespace quoin
               point.normal_traction = at_rest.normal_traction;
               point.shear_traction  = at_rest.shear_traction;
               point.plastic_opening = at_rest.plastic_opening + gaps[k][0];
-              point.plastic_slip    = at_rest.plastic_slip + slip_of(gaps[k]);
+              point.plastic_slip
+                  = at_rest.plastic_slip
+                    + slip_since_placing(history, 3 * i + k, slip_of(gaps[k]));
               write_point(point, history, 3 * i + k);
             }
           },

@@ -287,8 +287,9 @@ namespace quoin
             [&](const auto &law)
             {
               point = respond<3>(
-                  law, gap[0], slip, breaking && breaking->points[p],
-                  face.area * face.share, history, p, state.energy);
+                  law, gap[0], slip_since_placing(history, p, slip),
+                  breaking && breaking->points[p], face.area * face.share,
+                  history, p, state.energy);
             },
             all_laws[face.set]);
         element.inelastic += face.area * point.growth();

@@ -63,6 +63,7 @@ namespace quoin
 
   void JointFlow::find_open_channels(const State<2> &state)
   {
+    placed_opening = state.get<JointHistory>().placed_opening;
     is_wall.assign(places.elevation.size(), 0);
     for (unsigned int c = 0; c < places.faces.size(); ++c)
     {
@@ -90,7 +91,9 @@ namespace quoin
         continue;
       const auto gaps = joint_gaps(segment, nodes);
       for (unsigned int k = 0; k < 2; ++k)
-        openings[2 * places.of_segment[i] + k] = gaps[k][0];
+        openings[2 * places.of_segment[i] + k]
+            = gaps[k][0]
+              - (placed_opening.empty() ? 0. : placed_opening[2 * i + k]);
     }
     dealii::Utilities::MPI::sum(openings, node_map.communicator(), openings);
     std::fill(compliance.begin(), compliance.end(), 0.);

@@ -67,6 +67,12 @@ namespace quoin
   void detach_joint(unsigned int i, JointHistory &history);
   void detach_joint(unsigned int i, SpaceJointHistory &history);
 
+  /** Points count slips and openings from where begin_joint_anew() puts them,
+      others from the mesh; before that, on all ranks. */
+  void count_from_placing(const MatchedJoints &joints, JointHistory &history);
+  void count_from_placing(const SpaceJoints &joints,
+                          SpaceJointHistory &history);
+
   /** Face @p i is an intact joint, free of traction where it is now. */
   void begin_joint_anew(const MatchedJoints &joints, unsigned int i,
                         State<2> &state);

@@ -30,6 +30,9 @@ namespace quoin
     AlignedArray<JointState> state;
     /** Whether each face is no joint, because a side of it is not there. */
     AlignedArray<std::uint8_t> detached;
+    /** Slips that points had where a stage placed a block beside them, from
+        which they count, two of each [m]; empty: none did. */
+    AlignedArray<double> placed_slip;
 
     /** For @p n_faces with @p n_internal internal variables. */
     void resize(const std::size_t n_faces, const unsigned int n_internal = 0)
@@ -56,6 +59,7 @@ namespace quoin
         visitor.own(variable, 3);
       visitor.own(state, 3);
       visitor.own(detached);
+      visitor.own(placed_slip, 6);
     }
 
     template <typename Archive>

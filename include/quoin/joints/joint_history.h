@@ -43,6 +43,9 @@ namespace quoin
     AlignedArray<JointState> state;
     /** Whether each segment, two points, has become a general contact. */
     AlignedArray<std::uint8_t> handed_over;
+    /** Slip and opening [m] that points had where a stage placed a block beside
+        them, from which they count for laws and water; empty: none did. */
+    AlignedArray<double> placed_slip, placed_opening;
 
     /** For @p n points with @p n_internal internal variables. */
     void resize(const std::size_t n, const unsigned int n_internal = 0)
@@ -69,6 +72,8 @@ namespace quoin
         visitor.own(variable, 2);
       visitor.own(state, 2);
       visitor.own(handed_over);
+      visitor.own(placed_slip, 2);
+      visitor.own(placed_opening, 2);
     }
 
     template <typename Archive>

@@ -124,6 +124,18 @@ namespace quoin
       set_vector(values, p, slip);
   }
 
+  /** The @p slip [m] of point @p p of @p history as laws count it: from where a
+      block was placed beside it, if a stage did that. */
+  template <typename History>
+  Slip<History::dimension> slip_since_placing(const History &history,
+                                              const unsigned int p,
+                                              Slip<History::dimension> slip)
+  {
+    if (!history.placed_slip.empty())
+      slip -= slip_at<History::dimension>(history.placed_slip, p);
+    return slip;
+  }
+
   /** @p History: JointHistory, SpaceJointHistory or PointArrays, here and
       below. */
   template <typename Law, typename History>

@@ -155,7 +155,8 @@ namespace quoin
     }
 
   private:
-    /** Opens and closes channels and finds ends at absent blocks. */
+    /** Opens and closes channels and finds ends at absent blocks, and where
+        blocks were placed. */
     void find_open_channels(const State<2> &state);
     /** Gives channels the apertures of @p nodes; collective. */
     void set_apertures(const NodeRecord<2> *nodes);
@@ -186,9 +187,10 @@ namespace quoin
     const NodeMap<2> &node_map;
     const MatchedJoints &joints;
     const JointChannels places;
-    FlowNetwork flow_network;          /**< with the apertures of now */
-    std::vector<std::uint8_t> is_wall; /**< nodes at absent blocks */
-    std::vector<double> compliance;    /**< of nodes [m^3/Pa] */
+    FlowNetwork flow_network;            /**< with the apertures of now */
+    std::vector<std::uint8_t> is_wall;   /**< nodes at absent blocks */
+    std::vector<double> compliance;      /**< of nodes [m^3/Pa] */
+    AlignedArray<double> placed_opening; /**< see JointHistory [m] */
 
     JointFlowState now, before;
     std::vector<unsigned int> force_nodes;    /**< local, owned */

@@ -110,6 +110,20 @@ def consolidation(times, press=2e5, kn=1e10, a0=1e-4, length=2.0):
     return rows
 
 
+def placed_block(time, k=1e10):
+    """Aperture, flow and traction of a joint that is closed by 0.1 mm in the
+    second from 1 s on, and in the next one slips by 1 mm at a constant opening,
+    both from where its block was placed."""
+    closing = 1e-4 * min(time - 1, 1)
+    aperture = 3e-4 - closing
+    friction, dilation = (math.tan(math.radians(angle)) for angle in (30, 10))
+    # k (u - p) = friction k (closing + dilation p)
+    u = 1e-3 * max(0, time - 2)
+    plastic = max(0, u - friction * closing) / (1 + friction * dilation)
+    return [aperture, aperture**3 / (12 * MU) * 9810.0,
+            -k * (closing + dilation * plastic)]
+
+
 def undrained(press=2e5, kn=1e10, a0=1e-4, bulk=2e8):
     """Opening w and pressure of a closed joint full of water below a slab:
     a0 = (a0 + w) (1 + p / bulk), press = p - kn w."""
@@ -192,6 +206,8 @@ def main():
     q = 1e-4**3 / (12 * MU) * 9810.0
     write("drain.csv", "time [s],outflow [m^3/s]",
           [(0.6 * k, q) for k in range(1, 101)])
+    write("placed.csv", "time [s],aperture [m],flow [m^3/s],normal [Pa]",
+          [[t] + placed_block(t) for t in (1.5, 2.0, 2.5, 3.0)])
     # full pressure at rest; the cubic law over 2 m once the wall is free
     q = 2e-4**3 / (12 * MU) * 1e4 * 10 / 2
     write("drift.csv", "time [s],drift [m^3/s],lake [m^3/s],middle [Pa]",

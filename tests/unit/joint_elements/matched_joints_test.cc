@@ -132,10 +132,11 @@ namespace
       for (unsigned int k = 0; k < 2; ++k)
       {
         const auto [opening, slip] = gaps[k];
-        auto point                 = read_point(law, history, 2 * i + k);
+        const double own = slip_since_placing(history, 2 * i + k, slip);
+        auto point       = read_point(law, history, 2 * i + k);
         JointDissipation lost;
-        if (!law.update_elastic(point, opening, slip))
-          lost = law.update_failing(point, opening, slip);
+        if (!law.update_elastic(point, opening, own))
+          lost = law.update_failing(point, opening, own);
         write_point(point, history, 2 * i + k);
         const double weight = segment.area[k] * segment.share;
         energy.friction += weight * lost.friction;
@@ -159,7 +160,8 @@ namespace
   }
 
   /** Walks of @p n segments at random, the last but one of which becomes a
-      general contact on the way; @p reach: size of their gaps [m]. */
+      general contact on the way, and the last one is placed anew; @p reach:
+      size of their gaps [m]. */
   template <typename Law>
   void expect_same_as_by_point(const Law &law, const unsigned int n,
                                const double reach)
@@ -183,6 +185,12 @@ namespace
       if (n > 1 && step == 20)
         stack.state.get<JointHistory>().handed_over[n - 2]
             = history.handed_over[n - 2] = 1;
+      if (step == 25)
+      {
+        count_from_placing(stack.joints, stack.state.get<JointHistory>());
+        begin_joint_anew(stack.joints, n - 1, stack.state);
+        history = stack.state.get<JointHistory>();
+      }
       stack.find_forces();
       AlignedArray<dealii::Tensor<1, 2>> force(stack.force.size(),
                                                dealii::Tensor<1, 2>());
@@ -226,6 +234,46 @@ TEST(MatchedJoints, SegmentsTogetherAreAsPointByPoint)
     expect_same_as_by_point(composite_test::wall(), n, 3e-5);
     expect_same_as_by_point(rock_test::rough(), n, 1e-4);
   }
+}
+
+// Slip away from there dilates, wherever the mesh had the block.
+TEST(MatchedJoints, SlipCountsFromWhereABlockWasPlaced)
+{
+  constexpr double slip = 1e-3, closing = 1e-4;
+  JointSetParameters dilating                       = frictional();
+  coulomb_law(dilating).dilation                    = 0.2;
+  coulomb_law(dilating).critical_shear_displacement = 2e-3;
+  JointSetParameters rough                          = elastic_joint(kn, ks);
+  rough.law                                         = rock_test::rough();
+  for (const JointSetParameters &set : { dilating, rough })
+    for (const double way : { slip, -slip })
+    {
+      std::array<double, 2> pressure{};
+      for (const double before : { 0., 5e-3, -5e-3 })
+      {
+        Stack stack(3, 0., set);
+        stack.move_upper(before, 0.5 * before);
+        JointHistory &history = stack.state.get<JointHistory>();
+        count_from_placing(stack.joints, history);
+        for (unsigned int i = 0; i < 3; ++i)
+          begin_joint_anew(stack.joints, i, stack.state);
+        stack.move_upper(0., -closing);
+        stack.find_forces();
+        const double at_first = stack.total(0)[1];
+        for (unsigned int i = 0; i < 20; ++i)
+        {
+          stack.move_upper(way / 20., 0.);
+          stack.find_forces();
+        }
+        const auto now = stack.total(0);
+        if (before == 0.)
+          pressure = now;
+        // The lower block is pressed down by more as the joint dilates.
+        EXPECT_LT(now[1], 1.01 * at_first);
+        EXPECT_NEAR(now[0], pressure[0], 1e-9 * std::abs(pressure[1]));
+        EXPECT_NEAR(now[1], pressure[1], 1e-9 * std::abs(pressure[1]));
+      }
+    }
 }
 
 TEST(MatchedJoints, TributaryAreasSumToTheJoint)

@@ -73,6 +73,7 @@ namespace
         Slip<3> slip;
         slip[0]    = gap[k][1];
         slip[1]    = gap[k][2];
+        slip       = slip_since_placing(history, 3 * i + k, slip);
         auto point = read_point(law, history, 3 * i + k);
         JointDissipation lost;
         if (!law.update_elastic(point, gap[k][0], slip))
@@ -107,7 +108,8 @@ namespace
   }
 
   /** Walks of the 2 @p nx faces at random, the last but one of which is
-      detached on the way; @p reach: size of their gaps [m]. */
+      detached on the way, and the last one placed anew; @p reach: size of their
+      gaps [m]. */
   template <typename Law>
   void expect_same_as_by_point(const Law &law, const unsigned int nx,
                                const double reach)
@@ -124,6 +126,12 @@ namespace
       if (step == 20)
         stack.history().detached[n_faces - 2] = history.detached[n_faces - 2]
             = 1;
+      if (step == 25)
+      {
+        count_from_placing(stack.joints, stack.history());
+        begin_joint_anew(stack.joints, n_faces - 1, stack.state);
+        history = stack.history();
+      }
       stack.update();
       std::vector<Vector> force(stack.force.size());
       add_forces_by_point(law, stack, history, energy, force);
