@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/model/block_placement.h>
 #include <quoin/results/history_points.h>
 
 #include <deal.II/base/mpi.h>
