@@ -69,6 +69,62 @@ namespace quoin
                    "and the strength of these joints.");
     }
 
+    /** Warns of edges that touch without a joint, in which the initial stress
+        would have its traction. */
+    void check_initial_contacts(const Parameters &parameters,
+                                const MeshReport &report, Advice &advice)
+    {
+      Checks(advice, "")
+          .warn_if(!parameters.model.initial_stresses.empty()
+                       && report.unmatched_touch && report.unmatched_size > 0.,
+                   "outer edges lie on each other over ", report.unmatched_size,
+                   " m without matching nodes, the first near ",
+                   report.position(report.unmatched_position),
+                   " m: contacts there begin without traction, so that the "
+                   "initial stress goes from the blocks beside them as they "
+                   "close. Mesh both sides alike, and a joint that has the "
+                   "stress from the start is made there.");
+    }
+
+    double largest(const YieldFunctions &value)
+    {
+      return std::max(value.shear, value.tension);
+    }
+
+    /** Warns of cells that the initial stress takes beyond their strength,
+        unless the first stage raises that. */
+    template <int dim>
+    void check_initial_cells(const Parameters &parameters,
+                             const Model<dim> &model, Advice &advice)
+    {
+      /** By the largest component, up to which a stress may be beyond. */
+      constexpr double rounding = 1e-6;
+      if (parameters.model.initial_stresses.empty())
+        return;
+      const BlockForcesData<dim> &cells = model.blocks().cell_data();
+      std::vector<double> n             = { 0., 0. }; // beyond, of all
+      for (unsigned int c = 0; c < cells.cells.size(); ++c)
+      {
+        const auto *law = cells.law_of(c);
+        if (!law)
+          continue;
+        const auto stress = cells.initial_stress_of(c);
+        double size       = 0.;
+        for (const double part : stress)
+          size = std::max(size, std::abs(part));
+        n[0] += largest(law->yield_functions(stress)) > rounding * size;
+        ++n[1];
+      }
+      dealii::Utilities::MPI::sum(n, model.nodes().communicator(), n);
+      Checks(advice, "")
+          .warn_if(n[0] > 0. && parameters.stages.front().strength_factor <= 1.,
+                   n[0], " of ", n[1],
+                   " cells of materials that yield begin with stresses beyond "
+                   "their strength: they yield in the first step, and the "
+                   "stress that was given is not that of the ground. Check the "
+                   "initial stress and the strength of these materials.");
+    }
+
     template <int dim>
     bool is_in_set(const JointNodes<dim> &face, const JointSetParameters &set,
                    const BlockTable<dim> &table)
@@ -539,6 +595,8 @@ namespace quoin
       check_water(parameters, model.nodes(), advice);
     }
     check_initial_joints(parameters, model, state, advice);
+    check_initial_contacts(parameters, report, advice);
+    check_initial_cells(parameters, model, advice);
     check_initial_stress(model, advice);
     check_stress_at_rest(parameters, model, state, advice);
     check_forgotten_loads(parameters, advice);

@@ -126,8 +126,7 @@ namespace quoin
           mesh_report = make_mesh_report(mesh);
           if (parameters.model.large_displacements)
           {
-            // Unmatched edges that touch are then in contact.
-            mesh_report.unmatched_size = 0.;
+            mesh_report.unmatched_touch = true;
             if (parameters.model.absent_groups.empty())
               refuse_overlap(mesh_report);
           }

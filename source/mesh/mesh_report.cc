@@ -631,7 +631,7 @@ namespace quoin
   std::vector<std::string> MeshReport::warnings() const
   {
     std::vector<std::string> result;
-    if (unmatched_size > 0.)
+    if (unmatched_size > 0. && !unmatched_touch)
       result.push_back(
           text_of("outer ", dimension == 2 ? "edges" : "faces",
                   " lie on each other over ", unmatched_size,

@@ -81,7 +81,7 @@ def prepare(folder, edit=None):
     for name in ("base.geo", "crack.geo", "boundary.prm", "hybrid.prm",
                  "space.geo", "space.prm", "gap.geo", "open_end.geo",
                  "blocks.obj", "open.obj", "overlap.geo", "apart.geo",
-                 "quake.AT2"):
+                 "unmatched.geo", "quake.AT2"):
         shutil.copy(os.path.join(HERE, name), folder)
     with open(os.path.join(HERE, "base.prm")) as stream:
         text = stream.read()

@@ -60,6 +60,8 @@ namespace quoin
      * meshes on the two sides of a contact, which no joint face joins.
      */
     double unmatched_size = 0.;
+    /** Whether these faces are in contact, in large displacements. */
+    bool unmatched_touch = false;
     /** Position of the first unmatched node [m]. */
     dealii::Point<3> unmatched_position;
 
@@ -82,8 +84,9 @@ namespace quoin
           &mixed &joint_size &total_joint_size &shortest_edge &longest_edge
               &median_edge &smallest_height &smallest_position &smallest_angle
                   &n_joint_ends &n_tied_joint_faces &n_reoriented_cells
-                      &largest_shift &unmatched_size &unmatched_position
-                          &overlaps &overlap_depth &overlap_position &box;
+                      &largest_shift &unmatched_size &unmatched_touch
+                          &unmatched_position &overlaps &overlap_depth
+                              &overlap_position &box;
     }
 
     /** Lines of text without a final newline. */
@@ -96,8 +99,6 @@ namespace quoin
     /** A sentence on a cell so much lower than others that it alone makes the
         steps of deformable blocks short; empty: there is none. */
     std::string sliver_text() const;
-
-  private:
     /** A place in the words of messages, without unit. */
     std::string position(const dealii::Point<3> &p) const;
   };
