@@ -144,7 +144,7 @@ namespace quoin
   /** Subtracts from the slips of the points of @p group, in the order of the
       history, those that they had where blocks were placed, @p placed. */
   template <int dim, int lanes>
-  void subtract_placed_slips(
+  QUOIN_INLINE void subtract_placed_slips(
       const FaceGroup<dim, lanes> &group, const double *placed,
       typename LaneFunctions<lanes>::Value (&slip)[dim - 1][dim])
   {
@@ -179,6 +179,8 @@ namespace quoin
     using Value         = typename F::Value;
     const LawLanes<Law, lanes, dim> laws(law);
     const PointArrays<dim> arrays = arrays_of(history);
+    const double *placed_slip
+        = history.placed_slip.empty() ? nullptr : history.placed_slip.data();
     DissipationLanes<lanes> lost;
     // Points of the last group: those behind it belong to another set, or to
     // none.
@@ -203,8 +205,8 @@ namespace quoin
         F::interleave(faces.opening, opening);
         for (unsigned int c = 0; c < dim - 1; ++c)
           F::interleave(faces.slip[c], slip[c]);
-        if (!history.placed_slip.empty())
-          subtract_placed_slips(group, history.placed_slip.data(), slip);
+        if (placed_slip)
+          subtract_placed_slips(group, placed_slip, slip);
         if (F::all(of_face))
           std::fill_n(there, dim, of_face);
         else
