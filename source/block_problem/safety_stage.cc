@@ -212,6 +212,7 @@ namespace quoin
       if (trial.verdict != Verdict::stable && !interrupted
           && needs_confirmation())
       {
+        context.run.progress.finish(figures());
         log.message("stage ", stage.name, ": factor ", factor, " is ",
                     verdict_text(trial.verdict),
                     " under adaptive damping, which chattering joints may "
@@ -222,6 +223,7 @@ namespace quoin
             = is_reinforced() ? default_local_damping : confirming_damping;
         trial.n_steps += state.stage_step;
         begin_trial(local);
+        context.run.progress.start(figures());
         come_to_rest(local, trial);
       }
       if (interrupted)

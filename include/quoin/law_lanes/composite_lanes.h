@@ -36,7 +36,16 @@ namespace quoin
         crush_ratio(2. * law.shear_stiffness * law.cap.shear
                     * crush_compliance),
         cap_centre(-0.5 * law.cap.offset / law.cap.normal),
-        by_normal(0.5 / law.cap.normal), by_shear(0.5 / law.cap.shear)
+        by_normal(0.5 / law.cap.normal), by_shear(0.5 / law.cap.shear),
+        normal_stiffness(Value{} + law.normal_stiffness),
+        shear_stiffness(Value{} + law.shear_stiffness),
+        tension(Value{} + law.tension), cohesion(Value{} + law.cohesion),
+        residual_friction(Value{} + law.residual_friction),
+        friction_loss(Value{} + (law.friction - law.residual_friction)),
+        cap_normal(Value{} + law.cap.normal),
+        cap_offset(Value{} + law.cap.offset),
+        cap_shear(Value{} + law.cap.shear),
+        lowest_load(Value{} + law.cap.lowest_load())
     {
     }
 
@@ -44,10 +53,10 @@ namespace quoin
     {
       const PointArrays<dim> &at = points.arrays;
       points.sigma
-          = law.normal_stiffness
+          = normal_stiffness
             * (points.opening - F::load(points.of(at.plastic_opening)));
       points.tau
-          = law.shear_stiffness
+          = shear_stiffness
             * (points.slip - Slips::load(points.slips_of(at.plastic_slip)));
       const Value size = magnitude(points.tau);
       const Bits state = points.load_state();
@@ -112,8 +121,7 @@ namespace quoin
 
     QUOIN_INLINE Value friction_at(const Value &bond) const
     {
-      return law.residual_friction
-             + (law.friction - law.residual_friction) * bond;
+      return residual_friction + friction_loss * bond;
     }
 
     /** See CompositeLaw::update_elastic(). @p tau: size of the shear traction,
@@ -124,8 +132,8 @@ namespace quoin
                                  const Value &crack_opening) const
     {
       const Bits below
-          = (sigma <= law.tension * bond_now)
-            & (tau <= law.cohesion * bond_now - sigma * friction_at(bond_now))
+          = (sigma <= tension * bond_now)
+            & (tau <= cohesion * bond_now - sigma * friction_at(bond_now))
             & ~((sigma < 0.) & (crack_opening > 0.));
       return below & within_cap(points, sigma, tau, below);
     }
@@ -136,9 +144,9 @@ namespace quoin
                                  const Value &sigma, const Value &tau,
                                  const Bits &asked) const
     {
-      const Value load = (law.cap.normal * sigma + law.cap.offset) * sigma
-                         + law.cap.shear * tau * tau;
-      const Bits is_far = load <= law.cap.lowest_load();
+      const Value load
+          = (cap_normal * sigma + cap_offset) * sigma + cap_shear * tau * tau;
+      const Bits is_far = load <= lowest_load;
       if (!has_cap || !F::any(asked & ~is_far))
         return is_far;
       const Value limit
@@ -490,6 +498,10 @@ namespace quoin
     const double peak_rate, width_rate;                     /**< [1/m] */
     const double crush_compliance, crush_ratio, cap_centre; /**< see crush() */
     const double by_normal, by_shear; /**< 1/(2 Cnn), 1/(2 Css) [-] */
+    // What points that stick need, in all lanes: registers are too few.
+    const Value normal_stiffness, shear_stiffness, tension, cohesion;
+    const Value residual_friction, friction_loss;
+    const Value cap_normal, cap_offset, cap_shear, lowest_load;
   };
 } // namespace quoin
 

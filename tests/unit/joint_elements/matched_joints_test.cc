@@ -178,6 +178,12 @@ namespace
     unsigned int n_failed = 0;
     for (unsigned int step = 0; step < 40; ++step)
     {
+      if (step == 25)
+      {
+        count_from_placing(stack.joints, stack.state.get<JointHistory>());
+        begin_joint_anew(stack.joints, n - 1, stack.state);
+        history = stack.state.get<JointHistory>();
+      }
       for (unsigned int v = 0; v < nodes.size(); ++v)
         for (unsigned int d = 0; d < 2; ++d)
           stack.state.nodes[v].u[d] = nodes[v].u[d]
@@ -185,12 +191,6 @@ namespace
       if (n > 1 && step == 20)
         stack.state.get<JointHistory>().handed_over[n - 2]
             = history.handed_over[n - 2] = 1;
-      if (step == 25)
-      {
-        count_from_placing(stack.joints, stack.state.get<JointHistory>());
-        begin_joint_anew(stack.joints, n - 1, stack.state);
-        history = stack.state.get<JointHistory>();
-      }
       stack.find_forces();
       AlignedArray<dealii::Tensor<1, 2>> force(stack.force.size(),
                                                dealii::Tensor<1, 2>());

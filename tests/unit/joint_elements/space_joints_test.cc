@@ -122,16 +122,16 @@ namespace
     unsigned int n_failed = 0;
     for (unsigned int step = 0; step < 40; ++step)
     {
-      stack.shake(0.2 * reach, 100 * nx + step);
-      if (step == 20)
-        stack.history().detached[n_faces - 2] = history.detached[n_faces - 2]
-            = 1;
       if (step == 25)
       {
         count_from_placing(stack.joints, stack.history());
         begin_joint_anew(stack.joints, n_faces - 1, stack.state);
         history = stack.history();
       }
+      stack.shake(0.2 * reach, 100 * nx + step);
+      if (step == 20)
+        stack.history().detached[n_faces - 2] = history.detached[n_faces - 2]
+            = 1;
       stack.update();
       std::vector<Vector> force(stack.force.size());
       add_forces_by_point(law, stack, history, energy, force);
