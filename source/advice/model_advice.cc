@@ -474,19 +474,22 @@ namespace quoin
       }
     }
 
-    /** Whether a stage or the far field takes @p material. */
+    /** Whether a stage or what is beyond a boundary takes @p material. */
     bool is_for_later(const MaterialParameters &material,
                       const Parameters &parameters)
     {
+      const auto is_given
+          = [&](const auto &pair) { return pair.second == material.name; };
       return parameters.boundary.material == material.name
+             || std::any_of(parameters.loads.begin(), parameters.loads.end(),
+                            [&](const LoadParameters &load)
+                            { return load.far_material == material.name; })
              || std::any_of(parameters.stages.begin(), parameters.stages.end(),
                             [&](const StageParameters &stage)
                             {
-                              return std::any_of(
-                                  stage.materials.begin(),
-                                  stage.materials.end(),
-                                  [&](const auto &pair)
-                                  { return pair.second == material.name; });
+                              return std::any_of(stage.materials.begin(),
+                                                 stage.materials.end(),
+                                                 is_given);
                             });
     }
 
