@@ -22,6 +22,27 @@ namespace quoin
       double right;
     };
 
+    /** Openings, lintels and other walls as what interrupts the bond. */
+    struct Interruption
+    {
+      Stretch where;
+      enum
+      {
+        opening,
+        lintel,
+        wall
+      } kind;
+    };
+
+    bool is_within(const std::vector<Interruption> &interruptions,
+                   const double x)
+    {
+      return std::any_of(interruptions.begin(), interruptions.end(),
+                         [&](const Interruption &gap) {
+                           return gap.where.left <= x && x <= gap.where.right;
+                         });
+    }
+
     /** Whether @p course, counted from 0, begins with a cut unit or header. */
     bool is_shifted(const WallParameters &wall, const unsigned int course)
     {
@@ -47,9 +68,12 @@ namespace quoin
       }
 
       /** Positions in (0, length), ascending, of a course of @p headers or of
-          the bond. @p below: those one below. */
-      std::vector<double> joints(const unsigned int course, const bool headers,
-                                 const std::vector<double> &below)
+          the bond. @p below: those one below; @p gaps: what interrupts the
+          courses of the storey. */
+      std::vector<double>
+      joints(const unsigned int course, const bool headers,
+             const std::vector<double> &below,
+             const std::vector<std::vector<Interruption>> &gaps)
       {
         const bool shifted = is_shifted(wall, course);
         const double L     = wall.unit_length;
@@ -71,7 +95,7 @@ namespace quoin
           return shifted ? periodic({ 0.5 * L, 0.75 * L }, { L, 0.5 * L })
                          : periodic({ 0. }, { L, 0.5 * L });
         case WallBond::random:
-          return random(below, course);
+          return random(below, course, gaps);
         case WallBond::none:
           break;
         }
@@ -107,16 +131,34 @@ namespace quoin
         return std::ldexp(static_cast<double>(generator() >> 11), -53);
       }
 
-      std::vector<double> random(const std::vector<double> &below,
-                                 const unsigned int course)
+      bool overlaps(const double x, const double other) const
       {
-        const auto overlaps = [&](const double x)
-        {
-          return std::all_of(
-              below.begin(), below.end(),
-              [&](const double other)
-              { return std::abs(other - x) >= wall.random_overlap; });
-        };
+        return std::abs(other - x) >= wall.random_overlap;
+      }
+
+      /** Whether a joint at @p x in @p course overlaps with the joints @p below
+          and with the ends of what interrupts the courses below and above. */
+      bool is_bonded(const double x, const unsigned int course,
+                     const std::vector<double> &below,
+                     const std::vector<std::vector<Interruption>> &gaps) const
+      {
+        if (is_within(gaps[course], x))
+          return true; // There is no joint.
+        const auto is_clear = [&](const Interruption &gap)
+        { return overlaps(x, gap.where.left) && overlaps(x, gap.where.right); };
+        const auto is_clear_of = [&](const std::vector<Interruption> &others)
+        { return std::all_of(others.begin(), others.end(), is_clear); };
+        const auto overlaps_with = [&](const double other)
+        { return is_within(gaps[course - 1], other) || overlaps(x, other); };
+        return std::all_of(below.begin(), below.end(), overlaps_with)
+               && (course == 0 || is_clear_of(gaps[course - 1]))
+               && (course + 1 == gaps.size() || is_clear_of(gaps[course + 1]));
+      }
+
+      std::vector<double>
+      random(const std::vector<double> &below, const unsigned int course,
+             const std::vector<std::vector<Interruption>> &gaps)
+      {
         std::vector<double> result;
         double x = 0.;
         while (x + wall.random_longest < wall.length)
@@ -127,7 +169,7 @@ namespace quoin
           {
             next = x + wall.random_shortest
                    + uniform() * (wall.random_longest - wall.random_shortest);
-            if (overlaps(next))
+            if (is_bonded(next, course, below, gaps))
               break;
             next = x;
           }
@@ -136,7 +178,8 @@ namespace quoin
                              "for the joint that follows x = "
                              + number_text(x) + " m in course "
                              + std::to_string(course + 1)
-                             + ". Lower it, or widen 'Random lengths'.");
+                             + ". Lower it, widen 'Random lengths', or take "
+                               "another 'Random seed'.");
           result.push_back(next);
           x = next;
         }
@@ -146,18 +189,6 @@ namespace quoin
       const WallParameters &wall;
       const double shift; /**< of unit_length */
       std::mt19937_64 generator;
-    };
-
-    /** Openings, lintels and other walls as what interrupts the bond. */
-    struct Interruption
-    {
-      Stretch where;
-      enum
-      {
-        opening,
-        lintel,
-        wall
-      } kind;
     };
 
     std::string in_course(const WallStorey &storey, const unsigned int course)
@@ -266,15 +297,16 @@ namespace quoin
       place(stretch.right);
     }
 
-    void lay_course(const WallParameters &wall, const WallRun &run,
-                    const WallStorey &storey, const unsigned int course,
+    void lay_course(const WallParameters &wall, const WallStorey &storey,
+                    const unsigned int course,
+                    const std::vector<Interruption> &gaps,
                     const std::vector<double> &joints, WallLayout &layout)
     {
       const unsigned int row  = layout.levels.size();
       const std::string &name = storey.course_name(course + 1);
       const bool headers      = is_header_course(wall, storey, course);
       double left             = 0.;
-      for (const Interruption &gap : interruptions(wall, run, storey, course))
+      for (const Interruption &gap : gaps)
       {
         lay_units(wall, { left, gap.where.left }, joints, headers, name, row,
                   layout);
@@ -325,12 +357,15 @@ namespace quoin
     {
       check_lintels(wall, storey);
       const double bottom = y;
+      std::vector<std::vector<Interruption>> gaps;
+      for (unsigned int course = 0; course < storey.n_courses; ++course)
+        gaps.push_back(interruptions(wall, run, storey, course));
       std::vector<double> joints;
       for (unsigned int course = 0; course < storey.n_courses; ++course)
       {
         joints = bond.joints(course, is_header_course(wall, storey, course),
-                             joints);
-        lay_course(wall, run, storey, course, joints, layout);
+                             joints, gaps);
+        lay_course(wall, storey, course, gaps[course], joints, layout);
         layout.levels.push_back(y);
         y = bottom + (course + 1) * wall.unit_height;
       }

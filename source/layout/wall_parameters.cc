@@ -112,8 +112,9 @@ namespace quoin
       wall.random_shortest = lengths[0];
       wall.random_longest  = lengths[1];
       entries.nonnegative("Random overlap", wall.random_overlap,
-                          "Smallest horizontal distance between head joints of "
-                          "neighbouring courses of a random bond [m]");
+                          "Smallest horizontal distance of head joints of a "
+                          "random bond from those of neighbouring courses and "
+                          "from the ends of openings and lintels there [m]");
       entries.integer("Random seed", wall.random_seed, 0,
                       "Seed of the random number generator of a random bond; "
                       "another seed gives another wall.");

@@ -214,6 +214,58 @@ TEST(WallLayout, RandomLengthsKeepTheirBoundsAndTheOverlap)
   EXPECT_NE(joints(lay_wall(wall), 7), joints(layout, 7));
 }
 
+TEST(WallLayout, RandomJointsOverlapWithEndsOfOpeningsAndLintels)
+{
+  WallParameters wall       = small_wall(WallBond::random);
+  wall.structured           = false;
+  wall.length               = 2.;
+  wall.unit_length          = 0.35;
+  wall.storeys[0].n_courses = 6;
+  wall.storeys[0].openings  = { { 0.8, 1.2, 1, 3 } };
+  wall.random_shortest      = 0.2;
+  wall.random_longest       = 0.5;
+  wall.random_overlap       = 0.08;
+  // Jambs and lintels end above each other, or as far apart as these.
+  const auto expect_overlap = [&]()
+  {
+    unsigned int n_laid = 0;
+    for (wall.random_seed = 1; wall.random_seed <= 30; ++wall.random_seed)
+      try
+      {
+        std::vector<double> below;
+        const WallLayout layout = lay_wall(wall);
+        for (unsigned int row = 0; row < 6; ++row)
+        {
+          std::set<double> ends;
+          for (const WallUnit &unit : layout.units)
+            if (unit.row == row)
+              ends.insert({ unit.left, unit.right });
+          ends.erase(0.);
+          ends.erase(wall.length);
+          for (const double x : ends)
+            for (const double other : below)
+            {
+              const double distance = std::abs(x - other);
+              EXPECT_TRUE(distance < 1e-12
+                          || distance >= wall.random_overlap - 1e-12)
+                  << distance << " m, seed " << wall.random_seed << ", row "
+                  << row;
+            }
+          below.assign(ends.begin(), ends.end());
+        }
+        ++n_laid;
+      }
+      catch (const InputError &)
+      {
+        // There was no place for a joint.
+      }
+    EXPECT_GE(n_laid, 25);
+  };
+  expect_overlap();
+  wall.lintel_bearing = 0.15;
+  expect_overlap();
+}
+
 TEST(WallGeometry, MeshesABlockForEveryHalfUnit)
 {
   for (const bool structured : { true, false })
