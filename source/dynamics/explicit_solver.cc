@@ -373,7 +373,9 @@ namespace quoin
         all.water->begin_stage(stage.name, state);
     set_dashpots();
     scale_masses(stage, state.next_load_start(), state);
-    acting.release = Release<dim>(state, stage, release_duration(state));
+    acting.release
+        = Release<dim>(state, stage.releases_linearly.value_or(false),
+                       release_duration(state));
     this->ramp_loads(previous, automatic_ramp());
     acting.arrival = arrival(state.next_load_start());
     collect_operators(previous);
@@ -409,7 +411,9 @@ namespace quoin
     const State<dim> saved = state;
     set_dashpots();
     scale_masses(stage, state.load_start(), state);
-    acting.release = Release<dim>(state, stage, release_duration(state));
+    acting.release
+        = Release<dim>(state, stage.releases_linearly.value_or(false),
+                       release_duration(state));
     this->ramp_loads(previous, automatic_ramp());
     acting.arrival = arrival(state.load_start());
     for (MotionConstraint<dim> *constraint : acting.constraints)

@@ -113,7 +113,7 @@ namespace quoin
         duration = resting_duration;
     }
     acting.release = Release(
-        state, stage,
+        state, stage.releases_linearly.value_or(true),
         stage.release_duration >= 0. ? stage.release_duration : duration);
     rests = rests && !acting.release.changes()
             && !(all.water && all.water->acts()

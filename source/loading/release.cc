@@ -9,9 +9,9 @@
 namespace quoin
 {
   template <int dim>
-  Release<dim>::Release(const State<dim> &state, const StageParameters &stage,
+  Release<dim>::Release(const State<dim> &state, const bool is_linear,
                         const double duration)
-    : is_linear(stage.releases_linearly), ramp_duration(duration)
+    : is_linear(is_linear), ramp_duration(duration)
   {
     const auto &held = state.template get<ConstructionState<dim>>().held;
     for (const HeldForces<dim> &item : held)

@@ -54,7 +54,7 @@ namespace quoin
         section.fail("Release", why);
       if (stage.release_duration >= 0.)
         section.fail("Release duration", why);
-      if (stage.releases_linearly)
+      if (stage.releases_linearly == true)
         section.fail("Release ramp", why);
     }
 

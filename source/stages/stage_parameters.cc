@@ -55,9 +55,13 @@ namespace quoin
           "[s]");
       entries.choice(
           "Release ramp", stage.releases_linearly,
-          { { "smooth", false }, { "linear", true } },
+          { { "automatic", std::nullopt },
+            { "smooth", false },
+            { "linear", true } },
           "Variation in time of the released forces of excavated blocks. "
-          "smooth: by half a cosine; linear: at a constant rate.");
+          "smooth: by half a cosine; linear: at a constant rate; automatic: "
+          "smooth by the explicit solver, linear by the implicit one, in "
+          "which nothing is shaken.");
       entries.pairs(
           "Materials", stage.materials,
           "must be pairs such as lining:young_concrete, rock:grouted.",

@@ -6,7 +6,6 @@
 
 #include <quoin/model/construction_state.h>
 #include <quoin/operators/force_operator.h>
-#include <quoin/stages/stage_parameters.h>
 
 #include <vector>
 
@@ -24,9 +23,9 @@ namespace quoin
   public:
     Release() = default;
 
-    /** @p duration: of the ramp [s]; 0: at once. */
-    Release(const State<dim> &state, const StageParameters &stage,
-            double duration);
+    /** @p duration: of the ramp [s]; 0: at once. @p is_linear: whether it is
+        straight, not half a cosine. */
+    Release(const State<dim> &state, bool is_linear, double duration);
 
     /** Whether the forces change in the stage. */
     bool changes() const

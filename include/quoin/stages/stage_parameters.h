@@ -94,7 +94,9 @@ namespace quoin
     double release = 1.;
     /** Duration in load time [s]; -1: automatic. */
     double release_duration = -1.;
-    bool releases_linearly  = false;
+    /** None given: by the implicit solver alone, as a rate that jumps makes
+        waves in dynamics. */
+    std::optional<bool> releases_linearly;
     /** Physical surfaces and their new materials. */
     std::vector<std::pair<std::string, std::string>> materials;
     /** Joint sets and the sets whose laws they take over. */

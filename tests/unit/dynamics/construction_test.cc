@@ -112,13 +112,10 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
     EXPECT_TRUE(run.state.is_absent(1));
     EXPECT_FALSE(run.state.is_absent(0));
 
-    StageParameters stage  = stages[0];
-    stage.release_duration = 4.;
-    const auto after       = forces(run.model, run.state);
-    const NodeRange lower  = block_nodes(run.model, 0);
+    const auto after      = forces(run.model, run.state);
+    const NodeRange lower = block_nodes(run.model, 0);
     for (const bool linear : { false, true })
     {
-      stage.releases_linearly = linear;
       // Over 4 s: as half a cosine, or straight.
       const double quarter = linear ? 0.25 : 0.5 * (1. - std::sqrt(0.5));
       const std::vector<std::array<double, 2>> shares = { { { 0., 0. } },
@@ -130,7 +127,7 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
       {
         AlignedArray<dealii::Tensor<1, 2>> held(before.size(),
                                                 dealii::Tensor<1, 2>());
-        const Release<2> release(run.state, stage, 4.);
+        const Release<2> release(run.state, linear, 4.);
         release.add_loads({ time, time }, held.data());
         const double left = 1. - 0.25 * share;
         for (std::size_t i = lower.begin; i < lower.end; ++i)
