@@ -129,8 +129,7 @@ namespace quoin
     bool is_in_set(const JointNodes<dim> &face, const JointSetParameters &set,
                    const BlockTable<dim> &table)
     {
-      return is_among(face.name == 0 ? "unnamed" : table.face_names[face.name],
-                      set.curves);
+      return is_among(table.joint_name(face.name), set.curves);
     }
 
     /** Whether the set is for joints that appear or change later. */

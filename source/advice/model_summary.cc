@@ -171,9 +171,7 @@ namespace quoin
     {
       unsigned int fewest = -1, most = 0;
       for (const auto &[face, n] : n_faces)
-        if (is_among(face[0] == 0 ? "unnamed"
-                                  : nodes.table().face_names[face[0]],
-                     set.curves))
+        if (is_among(nodes.table().joint_name(face[0]), set.curves))
         {
           fewest = std::min(fewest, n);
           most   = std::max(most, n);

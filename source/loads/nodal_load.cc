@@ -112,6 +112,13 @@ namespace quoin
                          + name
                          + "' twice, and the load would act on it twice. Name "
                            "it once.");
+      if (name == "unnamed" && !is_among(name, face_names))
+        throw InputError(std::string("section 'Loads/") + load
+                         + "': 'Boundary = unnamed', but a load needs a "
+                         + boundary_kind<dim>
+                         + " with a name, in joints as well. Give one to these "
+                           "joints in the mesh, and name it here and among the "
+                           "'Curves' of their set in section 'Joints'.");
       const unsigned int line
           = position(face_names, name, load, "Boundary", boundary_kind<dim>);
       std::vector<bool> wanted(face_names.size(), false);

@@ -267,7 +267,7 @@ namespace quoin
     const std::string &name = probe.parameters.curve;
     unsigned int n          = 0;
     for (const JointNodes<dim> &face : model.nodes().faces().joints)
-      if (name.empty() || model.nodes().table().face_names[face.name] == name)
+      if (name.empty() || model.nodes().table().joint_name(face.name) == name)
         n = 1;
     if (dealii::Utilities::MPI::max(n, communicator) == 0)
       throw InputError("section 'Histories/" + probe.parameters.name
@@ -361,7 +361,7 @@ namespace quoin
     {
       const SpaceJointFace &face = joints.faces()[i];
       const auto &joint          = model.nodes().faces().joints[face.face];
-      if (name.empty() || model.nodes().table().face_names[joint.name] == name)
+      if (name.empty() || model.nodes().table().joint_name(joint.name) == name)
         force += face.share
                  * force_on_upper(joints, i, state)[probe.parameters.component];
     }

@@ -268,8 +268,9 @@ namespace quoin
       entries.text(
           "Curve", history.curve,
           "Physical curve on which the nearest joint point of joint quantities "
-          "is searched, or over which joint forces are summed, with empty for "
-          "all; where the flow of water is summed; a physical surface in three "
+          "is searched, or over which joint forces are summed, with 'unnamed' "
+          "for joints on no named curve and empty for all; where the flow of "
+          "water is summed; a physical surface in three "
           "dimensions; or the name of the "
           "boundary "
           "in 'Boundary elements' of boundary forces and moments.");

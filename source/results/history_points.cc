@@ -354,7 +354,7 @@ namespace quoin
       for (unsigned int i = 0; i < faces.size(); ++i)
       {
         const JointNodes<3> &face = nodes.faces().joints[faces[i].face];
-        if (!name.empty() && nodes.table().face_names[face.name] != name)
+        if (!name.empty() && nodes.table().joint_name(face.name) != name)
           continue;
         dealii::Point<3> centroid;
         for (const unsigned int node : face.lower)
@@ -376,7 +376,7 @@ namespace quoin
       {
         const auto &face
             = nodes.faces().joints[model.joints().segments()[i].face];
-        if (!curve.empty() && nodes.table().face_names[face.name] != curve)
+        if (!curve.empty() && nodes.table().joint_name(face.name) != curve)
           continue;
         for (unsigned int k = 0; k < 2; ++k)
         {

@@ -44,6 +44,13 @@ namespace quoin
     bool is_mixed              = false;      /**< see BlockMesh::mixed */
     std::array<dealii::Point<dim>, 2> box{}; /**< lower and upper corner [m] */
 
+    /** Name of joints of @p face_name, an index into face_names: 'unnamed' of
+        those on no named curve. */
+    std::string joint_name(const unsigned int face_name) const
+    {
+      return face_name == 0 ? "unnamed" : face_names[face_name];
+    }
+
     /** Diagonal of the box around all vertices [m]. */
     double diagonal() const
     {

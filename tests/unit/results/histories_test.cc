@@ -179,6 +179,25 @@ TEST(Histories, PointsOutsideOfBlocksAreNamed)
   }
 }
 
+TEST(Histories, JointsOnNoNamedCurve)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  for (JointFace<2> &face : mesh.joint_faces)
+    face.name = 0;
+  ModelParameters parameters  = two_blocks();
+  parameters.joints[0].curves = { "unnamed" };
+  TestRun run(mesh, parameters, {});
+  HistoryParameters wanted;
+  wanted.quantity = HistoryQuantity::joint;
+  wanted.curve    = "unnamed";
+  wanted.point    = { { 2.9, 2. } };
+  EXPECT_TRUE(find_history_point(run.model, wanted, { false, false }).here);
+  wanted.curve = "joint";
+  EXPECT_THROW(find_history_point(run.model, wanted, { false, false }),
+               InputError);
+}
+
 TEST(Histories, LengthOfOpenJoints)
 {
   BlockMesh<2> mesh;
