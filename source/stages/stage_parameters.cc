@@ -189,6 +189,13 @@ namespace quoin
           "stage, until the factor of safety is bracketed, and the run then "
           "continues from that state.");
       const bool by_time = stage.end == StageEnd::time;
+      if (const ParameterSection *section = entries.read_section();
+          section && by_time && section->number("Duration") == 0.)
+        section->fail(
+            "Duration",
+            "must be positive with 'End = time', which holds where no 'End' is "
+            "given. Give a duration above zero, or 'End = static ratio' for a "
+            "stage that ends at equilibrium, to which 'Static ratio' belongs.");
       if (entries.reads_if(by_time))
         entries.positive("Duration", stage.duration,
                          "Duration of a stage with 'End = time' [s]");
