@@ -197,6 +197,17 @@ namespace quoin
              + (is_bound(most) ? " of at most " + most : "");
     }
 
+    /** Advice on the wrong @p value of a number, if it has a decimal comma. */
+    std::string comma_advice(const std::string &value)
+    {
+      static const std::regex decimal("[-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?");
+      if (!std::regex_match(value, decimal))
+        return "";
+      std::string with_point           = value;
+      with_point[with_point.find(',')] = '.';
+      return "Decimals have a point: write " + with_point + ". ";
+    }
+
     /** A complaint in our own words about @p line of the section @p path; none
         if it has another fault than an unknown name or a wrong value. */
     Complaint complaint_about(const ParameterHandler &prm, const Line &line,
@@ -241,11 +252,12 @@ namespace quoin
       }
       if (const std::string words = number_words(pattern);
           !is_section && !words.empty())
-        return complaint(
-            given + "must be " + words + ", without formula or unit.", "");
+        return { given + "must be " + words + ", without formula or unit.",
+                 comma_advice(value) };
       return is_section || pattern.empty() || pattern.front() == '['
                  ? Complaint()
-                 : complaint(given + "must be a " + pattern + ".", "");
+                 : Complaint{ given + "must be a " + pattern + ".",
+                              comma_advice(value) };
     }
 
     /** That an 'end' is missing before @p line of @p full, or at its end, if
