@@ -473,6 +473,19 @@ namespace quoin
       }
     }
 
+    /** Warns of platens that nothing drives, holds or loads. */
+    void check_free_platens(const Parameters &parameters, Advice &advice)
+    {
+      for (const LoadParameters &load : parameters.loads)
+        Checks(advice, "load " + load.name + ": ")
+            .warn_if(load.type == LoadType::platen
+                         && load.given_components().empty(),
+                     "its platen is free in all directions, and no force acts "
+                     "on it: it keeps its nodes on one rigid body and does "
+                     "nothing else. Give a motion or a force, such as "
+                     "'Vertical = force -1e5', if that is not meant.");
+    }
+
     /** Whether a stage or what is beyond a boundary takes @p material. */
     bool is_for_later(const MaterialParameters &material,
                       const Parameters &parameters)
@@ -603,6 +616,7 @@ namespace quoin
     check_stress_at_rest(parameters, model, state, advice);
     check_forgotten_loads(parameters, advice);
     check_weight(parameters, advice);
+    check_free_platens(parameters, advice);
     check_release(parameters.stages, advice);
     check_failure_displacement(parameters.stages,
                                model.nodes().table().diagonal(), advice);
