@@ -253,7 +253,9 @@ namespace quoin
       if (const std::string words = number_words(pattern);
           !is_section && !words.empty())
         return { given + "must be " + words + ", without formula or unit.",
-                 comma_advice(value) };
+                 pattern.find("Integer") == std::string::npos
+                     ? comma_advice(value)
+                     : "" };
       return is_section || pattern.empty() || pattern.front() == '['
                  ? Complaint()
                  : Complaint{ given + "must be a " + pattern + ".",

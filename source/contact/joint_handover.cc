@@ -59,7 +59,7 @@ namespace quoin
       pair.active      = 1;
       pair.was_joint   = 1;
       pair.shift       = 0.5 * (gaps[0][1] + gaps[1][1]);
-      pair.shift_start = slip_since_placing(history, 2 * i, pair.shift);
+      pair.shift_start = pair.shift;
       for (unsigned int k = 0; k < 2; ++k)
       {
         const unsigned int p  = 2 * i + k;
@@ -77,7 +77,6 @@ namespace quoin
         // The vertices that coincided; the upper edge runs backwards.
         point.anchor_lower         = k;
         point.anchor_upper         = 1. - k;
-        point.slip_offset          = slip_since_placing(history, p, 0.);
         history.normal_traction[p] = 0.;
         history.shear_traction[p]  = 0.;
         history.state[p]           = JointState::open;

@@ -340,15 +340,31 @@ namespace quoin
   }
 
   template <int dim>
-  Arrival<dim> ExplicitSolver<dim>::arrival(const double start) const
+  Arrival<dim>
+  ExplicitSolver<dim>::arrival(const StageParameters *previous,
+                               const double start) const
   {
     if (stage.fill.empty() || stage.end != StageEnd::static_ratio)
       return {};
-    // Placed blocks have no stress that their weight may balance.
+    // Placed blocks have no stress that their weight may balance. Loads that
+    // begin in this stage have ramps of their own, and what boundaries that
+    // begin take over counts these whole; uplift changes with its crack.
+    std::vector<const NodalLoad<dim> *> loads;
     double duration = 0.;
+    bool is_heavy   = false;
     for (const NodalLoad<dim> *load : acting.nodal)
+    {
       if (load->traits().is_gravity)
+      {
         duration = std::max(duration, load->ramp_where_begun(quiet_time()));
+        is_heavy = true;
+      }
+      if (previous && names_load(*previous, load->name())
+          && !load->traits().follows_crack)
+        loads.push_back(load);
+    }
+    if (!is_heavy)
+      duration = quiet_time();
     const NodeMap<dim> &nodes = model.nodes();
     const auto fills
         = find_groups(nodes.table(), stage.fill,
@@ -357,7 +373,7 @@ namespace quoin
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       if (fills[nodes.table().group[nodes.block_of_node(i)]])
         placed.push_back(i);
-    return Arrival<dim>(placed, acting.nodal, { 0., start }, nodes.n_local(),
+    return Arrival<dim>(placed, loads, { 0., start }, nodes.n_local(),
                         duration);
   }
 
@@ -377,7 +393,7 @@ namespace quoin
         = Release<dim>(state, stage.releases_linearly.value_or(false),
                        release_duration(state));
     this->ramp_loads(previous, automatic_ramp());
-    acting.arrival = arrival(state.next_load_start());
+    acting.arrival = arrival(previous, state.next_load_start());
     collect_operators(previous);
     for (const auto &constraint : all.constraints)
       if (!all.acts_in(*constraint, stage))
@@ -415,7 +431,7 @@ namespace quoin
         = Release<dim>(state, stage.releases_linearly.value_or(false),
                        release_duration(state));
     this->ramp_loads(previous, automatic_ramp());
-    acting.arrival = arrival(state.load_start());
+    acting.arrival = arrival(previous, state.load_start());
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->resume_stage(state);
     state = saved;

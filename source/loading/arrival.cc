@@ -35,6 +35,8 @@ namespace quoin
                                dealii::Tensor<1, dim> *force) const
   {
     const double lacking = 1. - share(time.stage);
+    if (lacking == 0.)
+      return;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       force[nodes[i]] -= lacking * forces[i];
   }
@@ -44,10 +46,13 @@ namespace quoin
   Arrival<dim>::external_power(const TimePoint &time,
                                const dealii::Tensor<1, dim> *velocity) const
   {
+    const double lacking = 1. - share(time.stage);
+    if (lacking == 0.)
+      return 0.;
     double power = 0.;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       power += forces[i] * velocity[nodes[i]];
-    return -(1. - share(time.stage)) * power;
+    return -lacking * power;
   }
 
   template class Arrival<2>;

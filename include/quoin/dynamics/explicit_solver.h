@@ -174,9 +174,10 @@ namespace quoin
     double automatic_ramp() const;
     /** Duration of the release of held forces in this stage [s]. */
     double release_duration(const State<dim> &state) const;
-    /** What lets the loads on placed blocks grow in a stage that ends at rest
-        and begins at @p start by the clock of loads [s]. */
-    Arrival<dim> arrival(double start) const;
+    /** What lets the loads of the stage before grow on placed blocks, in a
+        stage that ends at rest and begins at @p start by the clock of loads
+        [s]. */
+    Arrival<dim> arrival(const StageParameters *previous, double start) const;
     /** Blocks of this rank that loads of this or a later stage move. */
     void find_moved_blocks(const State<dim> &state);
     /** Tells joints and contacts what their dashpots need of the blocks and of
