@@ -108,7 +108,8 @@ namespace quoin
       {
         const auto *law = cells.law_of(c);
         // Blocks that are placed later come free of stress.
-        if (!law || state.is_absent(model.nodes().block_of_cell(c)))
+        if (!law
+            || state.is_absent(model.nodes().block_of_node(cells.cells[c][0])))
           continue;
         const auto stress = cells.initial_stress_of(c);
         double size       = 0.;

@@ -3,7 +3,6 @@
 
 #include <quoin/contact/joint_handover.h>
 #include <quoin/contact_geometry/contact_state.h>
-#include <quoin/joints/point_arrays.h>
 #include <quoin/operators/archive.h>
 
 #include <cmath>

@@ -340,9 +340,8 @@ namespace quoin
   }
 
   template <int dim>
-  Arrival<dim>
-  ExplicitSolver<dim>::arrival(const StageParameters *previous,
-                               const double start) const
+  Arrival<dim> ExplicitSolver<dim>::arrival(const StageParameters *previous,
+                                            const double start) const
   {
     if (stage.fill.empty() || stage.end != StageEnd::static_ratio)
       return {};
