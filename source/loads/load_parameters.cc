@@ -489,8 +489,9 @@ namespace quoin
             "explicit stages with 'End = static ratio' of models without "
             "initial stress, where it is twice the travel time of a shear wave "
             "along the model's diagonal and at least two thousand critical "
-            "time steps. On blocks that 'Fill' places in such a stage it and "
-            "other loads grow so with initial stress, too. Pressures in joints "
+            "time steps. Loads that go on from the stage before grow so on "
+            "blocks that 'Fill' places, with initial stress, too. Pressures in "
+            "joints "
             "that begin in the same stage grow with it, and, without initial "
             "stress, in a stage with 'End = static ratio' also tractions and "
             "the forces on platens [s]");

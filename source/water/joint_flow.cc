@@ -271,8 +271,8 @@ namespace quoin
     const dealii::Tensor<1, 2> normal = normal_of(face);
     for (unsigned int k = 0; k < 2; ++k)
     {
-      // Of linear faces the integral of a linear pressure; halves of quadratic
-      // faces have the weights of Simpson's rule.
+      // Linear faces have the integral of a linear pressure, halves of
+      // quadratic faces the weights of Simpson's rule.
       const double size = node_map.cells().is_quadratic
                               ? face.areas[k] * p[k]
                               : channel.thickness * channel.length / 6.

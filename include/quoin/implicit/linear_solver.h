@@ -74,7 +74,7 @@ namespace quoin
     const Matrix *matrix = nullptr;
     dealii::SolverControl control;
     bool is_analysed = false, has_pattern = false;
-    /** Of several ranks the first one alone has them. */
+    /** Factors of the matrix; the first rank alone has them. */
     SparseFactors sparse_factors;
     // Several ranks send their rows to the first one, which has the matrix.
     std::unique_ptr<Epetra_Import> to_first;

@@ -15,8 +15,8 @@ namespace quoin
   /**
    * What lets the loads on blocks that a stage places grow from zero by half a
    * cosine s(t) of load time, as gravity that begins there does: beside these
-   * loads act the forces (s - 1) F, F those of the loads where the stage
-   * begins.
+   * loads act the forces (s - 1) F, F being those of the loads that go on from
+   * the stage before, where the stage begins.
    */
   template <int dim>
   class Arrival : public ForceOperator<dim>

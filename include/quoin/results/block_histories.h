@@ -74,8 +74,8 @@ namespace quoin
       bool is_rigid;
       BlockInertia rest;
       std::vector<unsigned int> nodes; /**< nodes that this rank owns */
-      /** Their masses at the start of the run, those of 'rest', by which the
-          motion of the block is weighted whatever its density becomes [kg]. */
+      /** Masses of these nodes at the start of the run, by which the motion of
+          the block is weighted whatever its density becomes [kg]. */
       std::vector<double> mass;
     };
     /** A side of a joint's segment that belongs to a block. */
