@@ -36,6 +36,10 @@ namespace quoin
         faster than the default does and damps chatter enough, but not the swing
         of blocks that bars or liners catch, which looks like a failure. */
     constexpr double confirming_damping = 0.5;
+    /** Steps of a trial under adaptive damping, by those of the slowest one
+        before that came to rest, after which local damping is to decide: under
+        adaptive damping joints may chatter for long in a model that stands. */
+    constexpr std::uint64_t patience = 4;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
     /** Share of the failure displacement at which a trial of the implicit
@@ -108,7 +112,9 @@ namespace quoin
       /** Begins the stage, damped as @p variant of it, with the state before.
        */
       void begin_trial(const StageParameters &variant);
-      void come_to_rest(const StageParameters &variant, SafetyTrial &trial);
+      /** Takes at most @p most_steps steps. */
+      void come_to_rest(const StageParameters &variant,
+                        std::uint64_t most_steps, SafetyTrial &trial);
       void find_equilibrium(SafetyTrial &trial);
       /** What rest proves: nothing if the model has moved on before, beyond
           @p limit [m]. */
@@ -203,28 +209,44 @@ namespace quoin
     {
       SafetyTrial trial;
       trial.factor = factor;
-      begin_trial(stage);
-      context.run.progress.start(figures());
-      if (system.implicit_solver)
-        find_equilibrium(trial);
-      else
-        come_to_rest(stage, trial);
-      if (trial.verdict != Verdict::stable && !interrupted
-          && needs_confirmation())
+      // Chatter that misled adaptive damping once would do so again.
+      const bool may_mislead = needs_confirmation();
+      if (!may_mislead || !search.was_misled())
       {
-        context.run.progress.finish(figures());
-        log.message("stage ", stage.name, ": factor ", factor, " is ",
-                    verdict_text(trial.verdict),
-                    " under adaptive damping, which chattering joints may "
-                    "mislead; it is tried again with local damping");
+        begin_trial(stage);
+        context.run.progress.start(figures());
+        if (system.implicit_solver)
+          find_equilibrium(trial);
+        else
+        {
+          const std::uint64_t slowest = search.slowest_rest();
+          come_to_rest(stage,
+                       may_mislead && slowest > 0
+                           ? std::min(patience * slowest, stage.maximum_steps)
+                           : stage.maximum_steps,
+                       trial);
+        }
+        if (trial.verdict == Verdict::stable)
+          trial.n_to_rest = state.stage_step;
+        else if (may_mislead && !interrupted)
+        {
+          context.run.progress.finish(figures());
+          log.message("stage ", stage.name, ": factor ", factor, " is ",
+                      verdict_text(trial.verdict),
+                      " under adaptive damping, which chattering joints may "
+                      "mislead; it is tried again with local damping");
+          trial.n_steps = state.stage_step;
+        }
+      }
+      if (may_mislead && trial.verdict != Verdict::stable && !interrupted)
+      {
         StageParameters local = stage;
         local.damping         = DampingType::local;
         local.local_coefficient
             = is_reinforced() ? default_local_damping : confirming_damping;
-        trial.n_steps += state.stage_step;
         begin_trial(local);
         context.run.progress.start(figures());
-        come_to_rest(local, trial);
+        come_to_rest(local, stage.maximum_steps, trial);
       }
       if (interrupted)
         return trial;
@@ -255,6 +277,7 @@ namespace quoin
 
     template <int dim>
     void SafetyStage<dim>::come_to_rest(const StageParameters &variant,
+                                        const std::uint64_t most_steps,
                                         SafetyTrial &trial)
     {
       ExplicitSolver<dim> &solver = *system.explicit_solver;
@@ -297,7 +320,7 @@ namespace quoin
             return;
           }
           if (trial.verdict != Verdict::undecided
-              || state.stage_step >= stage.maximum_steps || is_interrupted())
+              || state.stage_step >= most_steps || is_interrupted())
             return;
           if (context.run.progress.due())
             context.run.progress.update(figures());

@@ -162,6 +162,23 @@ namespace quoin
     return n;
   }
 
+  std::uint64_t FactorSearch::slowest_rest() const
+  {
+    std::uint64_t slowest = 0;
+    for (const SafetyTrial &trial : all_trials)
+      slowest = std::max(slowest, trial.n_to_rest);
+    return slowest;
+  }
+
+  bool FactorSearch::was_misled() const
+  {
+    return std::any_of(all_trials.begin(), all_trials.end(),
+                       [](const SafetyTrial &trial) {
+                         return trial.verdict == Verdict::stable
+                                && trial.n_to_rest == 0;
+                       });
+  }
+
   std::string FactorSearch::table() const
   {
     std::ostringstream text;

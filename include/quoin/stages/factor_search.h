@@ -55,11 +55,14 @@ namespace quoin
     /** Unbalanced ratio at the end of the trial [-]. */
     double unbalanced_ratio = 0.;
     double displacement     = 0.; /**< largest since its start [m] */
+    /** Steps to rest with the damping of the stage; 0: it did not rest. */
+    std::uint64_t n_to_rest = 0;
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &factor &verdict &n_steps &unbalanced_ratio &displacement;
+      archive &factor &verdict &n_steps &unbalanced_ratio &displacement
+          &n_to_rest;
     }
   };
 
@@ -93,6 +96,12 @@ namespace quoin
     }
     /** Number of steps of all trials. */
     std::uint64_t n_steps() const;
+    /** Most steps in which a trial came to rest with the damping of the stage;
+        0: none did. */
+    std::uint64_t slowest_rest() const;
+    /** Whether a trial is stable that did not come to rest with the damping of
+        the stage. */
+    bool was_misled() const;
 
     /** The trials as a table (CSV). */
     std::string table() const;

@@ -101,6 +101,20 @@ TEST(FactorSearch, UndecidedFactorsBelowAStableOneAreForgotten)
   EXPECT_EQ(search.n_steps(), 30U);
 }
 
+TEST(FactorSearch, KnowsWhetherItsDampingMisled)
+{
+  FactorSearch search;
+  EXPECT_EQ(search.slowest_rest(), 0U);
+  search.add({ 1., Verdict::stable, 10, 0., 0., 10 });
+  search.add({ 1.25, Verdict::failing, 90 });
+  search.add({ 1.125, Verdict::stable, 30, 0., 0., 30 });
+  EXPECT_EQ(search.slowest_rest(), 30U);
+  EXPECT_FALSE(search.was_misled());
+  search.add({ 1.1875, Verdict::stable, 400 }); // by local damping
+  EXPECT_EQ(search.slowest_rest(), 30U);
+  EXPECT_TRUE(search.was_misled());
+}
+
 TEST(FailureWatch, WhatSlowsDownHasNotFailed)
 {
   // 5 (1 - exp(-t/3)) is above the limit from t = 6.9 on, where it was 3.4 at
