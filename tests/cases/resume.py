@@ -48,6 +48,17 @@ CASES = {
     # tetrahedra and dashpots
     "space": (os.path.join(common.VERIFICATION, "space_waves", "s.prm"),
               ["Output/Checkpoint interval=0.02"], 2, 2),
+    # dashpots of a boundary that have followed the material beside it since the
+    # second stage began, almost at the start
+    "space, softer": (
+        os.path.join(common.VERIFICATION, "space_waves", "s.prm"),
+        ["Materials/Names=rock, soft", "Materials/soft/Groups=none",
+         "Materials/soft/Density=2500", "Materials/soft/Young's modulus=6.25e9",
+         "Materials/soft/Poisson's ratio=0.25", "Stages/Names=wave, softer",
+         "Stages/wave/Duration=2e-4", "Stages/softer/Materials=rock:soft",
+         "Stages/softer/Loads=base, push, top, y_sides",
+         "Stages/softer/End=time", "Stages/softer/Duration=0.03",
+         "Output/Checkpoint interval=0.02"], 2, 2),
     "space, joints": (os.path.join(common.VERIFICATION, "space_incline",
                                    "case.prm"),
                       ["Output/Checkpoint interval=0.02",
