@@ -980,6 +980,103 @@ def blocks_that_overlap(quoin, folder):
     return printed
 
 
+def slivers_of_tetrahedra(quoin, folder):
+    """The log has the smallest angle between faces of all tetrahedra, and a
+    warning the place of the lowest one, of two slivers: four points on two
+    edges of 2 m that cross at right angles, one 2 d above the other."""
+    places = [(0.0, 0.0, 0.0), (10.0, 20.0, 30.0)]
+
+    def write(path, halves):
+        nodes, cells, ground = [], [], []
+        for (x, y, z), d in zip(places, halves):
+            first = len(nodes) + 1
+            nodes += [(x + u, y + v, z + w) for u, v, w in
+                      [(-1, 0, -d), (1, 0, -d), (0, -1, d), (0, 1, d),
+                       (0, 0, -1.5), (0, 0, 1.5)]]
+            a, b, c, e, low, high = range(first, first + 6)
+            # the sliver between two tetrahedra above and two below
+            cells += [(a, b, c, e), (a, c, e, high), (b, c, e, high),
+                      (a, b, c, low), (a, b, e, low)]
+            ground += [(a, c, low), (b, c, low), (a, e, low), (b, e, low)]
+        elements = ([(2, 2, 1, 1, *face) for face in ground]
+                    + [(4, 2, 2, 1, *cell) for cell in cells])
+        with open(path, "w") as stream:
+            stream.write(
+                "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n"
+                '2 1 "ground"\n3 2 "rock"\n$EndPhysicalNames\n')
+            for name, rows in (("Nodes", nodes), ("Elements", elements)):
+                stream.write("$%s\n%d\n" % (name, len(rows)))
+                stream.writelines("%d %s\n" % (number, " ".join(map(repr, row)))
+                                  for number, row in enumerate(rows, 1))
+                stream.write("$End%s\n" % name)
+
+    prm = os.path.join(folder, "slivers.prm")
+    with open(prm, "w") as stream:
+        stream.write("""subsection Mesh
+  set File = slivers.msh
+end
+subsection Materials
+  set Names = rock
+  subsection rock
+    set Density         = 2500
+    set Young's modulus = 1e9
+    set Poisson's ratio = 0.2
+  end
+end
+subsection Loads
+  set Names = ground, weight
+  subsection ground
+    set Type       = prescribed motion
+    set Boundary   = ground
+    set Horizontal = 0
+    set Lateral    = 0
+    set Vertical   = 0
+  end
+  subsection weight
+    set Type          = gravity
+    set Vertical      = -9.81
+    set Ramp duration = 1e-3
+  end
+end
+subsection Stages
+  set Names = settle
+  subsection settle
+    set Loads   = ground, weight
+    set End     = static ratio
+    set Damping = local
+  end
+end
+""")
+    printed = ""
+    for halves, lowest in (((0.3, 0.2), None), ((0.02, 1e-4), 1),
+                           ((2e-4, 0.02), 0), ((3e-4, 2e-4), 1)):
+        write(os.path.join(folder, "slivers.msh"), halves)
+        status, printed = run([quoin, prm, "--check"])
+        expect(status, printed, 0, ["2 blocks, 10 tetrahedra, 12 nodes"])
+        d = min(halves)
+        # along the four edges of sqrt(2 + 4 d^2); along the two of 2 m it is flat
+        angle = math.degrees(math.acos(1 / (1 + 4 * d * d)))
+        found = re.search(r"smallest angle (\S+) degrees between faces", printed)
+        if not found or abs(float(found.group(1)) / angle - 1) > 1e-5:
+            raise Failure("the smallest angle is not %g degrees:\n%s"
+                          % (angle, printed.strip()))
+        warnings = [line for line in printed.splitlines()
+                    if line.startswith("Warning: ")]
+        if lowest is None:
+            if warnings:
+                raise Failure("a warning without need:\n%s" % printed)
+            continue
+        # three times the volume, 4 d/3 m3, by the area of a face
+        height = 4 * d / math.sqrt(1 + 4 * d * d)
+        expect(0, "\n".join(warnings), 0, [
+            "the tetrahedron at (%g, %g, %g) m is only %.4g m high"
+            % (*places[lowest], height), "Unite the points"])
+        if len(warnings) != 1:
+            raise Failure("%d warnings, not one:\n%s"
+                          % (len(warnings), "\n".join(warnings)))
+    return printed
+
+
 def small_pieces_of_rock(quoin, folder):
     """Where few small pieces limit the step --check offers to leave them out,
     and the step is longer then."""
@@ -1208,7 +1305,8 @@ FUNCTIONS = [base_case_runs, quiet_run, boundary_begins_in_motion,
              last_allowed_step, implicit_checkpoints,
              implicit_limit_load, interrupted_before_the_steps,
              two_runs_at_once, odd_names, file_of_another_system,
-             far_from_the_origin, blocks_that_overlap, small_pieces_of_rock,
+             far_from_the_origin, blocks_that_overlap, slivers_of_tetrahedra,
+             small_pieces_of_rock,
              gmsh_comes_to_its_end, output_is_a_file, old_results, changed_inputs,
              damaged_checkpoints, full_disk_on_two_ranks]
 
