@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""A rigid block on a plane: u'' = g(t) (sin b - cos b tan phi)."""
+"""A rigid block on a plane: u'' = g(t) (sin b - cos b tan phi), and its factor of
+safety, tan(phi)/tan(b), with more friction."""
 import os
 
 import numpy as np
@@ -27,3 +28,6 @@ np.savetxt(os.path.join(HERE, "reference.csv"),
            fmt="%.9g", comments="",
            header="time [s],ux [m],uy [m],uz [m],slip [m],"
            "slip_x [m],slip_y [m],slip_z [m]")
+np.savetxt(os.path.join(HERE, "reference_safety.csv"),
+           [[np.tan(np.radians(40)) / np.tan(DIP)]], fmt="%.6g", comments="",
+           header="factor [-]")

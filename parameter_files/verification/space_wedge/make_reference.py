@@ -8,7 +8,8 @@ intersection l, downwards; without cohesion it slides where T = (R_A + R_B) tan(
 with cohesion its factor of safety is (c A + (R_A + R_B) tan(phi)) / T with the
 area A of both planes. With two strengths and water, whose pressure on the planes
 adds up to U_A and U_B, it is (c_A A_A + c_B A_B + (R_A - U_A) tan(phi_A)
-+ (R_B - U_B) tan(phi_B)) / T (Hoek & Bray 1974, 1981).
++ (R_B - U_B) tan(phi_B)) / T (Hoek & Bray 1974, 1981). Pushed off one plane it
+slides on the other: tan(phi) by that of the angle between force and normal.
 """
 import os
 
@@ -79,9 +80,12 @@ def main():
                "normal force on b [-],pushed off b [deg]")
     np.savetxt(os.path.join(HERE, "reference_safety.csv"),
                [[factor((2e3, 2e3), (40, 40)), factor((0, 0), (40, 40)),
-                 factor((1e3, 1.5e3), (50, 35), 0.5)]],
+                 factor((1e3, 1.5e3), (50, 35), 0.5),
+                 np.tan(np.radians(50))
+                 / np.tan(np.radians(on_one(PUSHED, a)))]],
                delimiter=",", fmt="%.6g", comments="",
-               header="cohesive [-],frictional [-],two strengths and water [-]")
+               header="cohesive [-],frictional [-],two strengths and water [-],"
+               "pushed off b [-]")
 
 
 if __name__ == "__main__":
