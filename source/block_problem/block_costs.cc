@@ -71,9 +71,9 @@ namespace quoin
         const auto begin = WallClock::now();
         for (unsigned int i = 0; i < 2; ++i)
           take_trial_step(context, stage, start, state);
-        log.message("stage ", stage.name, ": ",
-                    seconds_text(seconds_since(begin)),
-                    " for the influence matrices of the boundary elements");
+        log.message(
+            "stage ", stage.name, ": ", seconds_text(seconds_since(begin)),
+            " for what the first steps of the boundary elements prepare");
       }
       const double seconds = seconds_per_call(
           [&]() { take_trial_step(context, stage, start, state); },

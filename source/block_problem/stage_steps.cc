@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/wall_clock.h>
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/problems/problem.h>
 #include <quoin/block_problem/stage_steps.h>
+#include <quoin/results/measurements.h>
 
 #include <algorithm>
 #include <cmath>
@@ -121,9 +123,14 @@ namespace quoin
            {
              if (first && !settings.waves.empty())
                make_waves(step);
+             const auto begin = WallClock::now();
              far.set_time_step(
                  step, static_cast<unsigned int>(n_substeps),
                  static_cast<unsigned long>(std::min(n_steps, 1e7)));
+             if (first)
+               log.message(
+                   "boundary elements: ", seconds_text(seconds_since(begin)),
+                   " for their influence matrices");
            });
     if (first)
       report_far_field();
@@ -171,12 +178,14 @@ namespace quoin
     log.message("boundary elements: time step ", far.time_step(), " s, ",
                 far.n_substeps(), " steps of the blocks, ",
                 step_ratio_text(domain, far.domain().medium, far.time_step()));
+    const auto begin     = WallClock::now();
     const auto passivity = passivity_of(
         far.influence_kernel(), far.boundary_history(), domain,
         far.domain().medium, far.domain().formulation, far.time_step(),
         parameters.boundary.n_frequencies, system.communicator);
     if (passivity)
-      log.message(passivity->advice());
+      log.message(passivity->advice(), " The scan took ",
+                  seconds_text(seconds_since(begin)), ".");
   }
 
   template class StageSteps<2>;
