@@ -40,18 +40,22 @@ class Skip(Exception):
 
 
 class ManyRuns:
-    """quoin, run by the program many_runs: one of them for each thread."""
+    """quoin, run by the program many_runs: one of them for each thread. The program
+    quoin_gmsh beside it asks gmsh once for each mesh, see gmsh_once.cc."""
 
     def __init__(self, program, quoin):
         self.program, self.quoin = os.path.abspath(program), quoin
         self.of_thread = threading.local()
+        self.answers = tempfile.TemporaryDirectory(prefix="quoin_")
+        self.environment = dict(ENVIRONMENT,
+                                QUOIN_GMSH_ANSWERS=self.answers.name)
 
     def run(self, words):
         """Exit status and everything printed; it ends what takes 120 s."""
         own = self.of_thread
         if not hasattr(own, "process"):
             own.process = subprocess.Popen(
-                [self.program], env=ENVIRONMENT, stdin=subprocess.PIPE,
+                [self.program], env=self.environment, stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE)
         with tempfile.NamedTemporaryFile(prefix="quoin_") as printed:
             own.process.stdin.write(b"".join(
