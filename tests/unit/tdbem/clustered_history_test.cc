@@ -18,12 +18,12 @@ namespace
 {
   const ElasticMedium medium = ElasticMedium::from_young(2., 2.5, 0.25);
 
-  /** Two curves with corners and unequal elements. */
-  Boundary two_holes()
+  /** Two curves with corners and unequal elements, of @p length and @p n. */
+  Boundary two_holes(const double length = 0.24, const unsigned int n = 12)
   {
     Boundary boundary = Boundary::polygon(
-        { { 0., 0. }, { 1., 0. }, { 1.2, 0.7 }, { 0.1, 0.6 } }, 0.24, true);
-    const Boundary circle = Boundary::circle({ 3., 1. }, 0.6, 12, true);
+        { { 0., 0. }, { 1., 0. }, { 1.2, 0.7 }, { 0.1, 0.6 } }, length, true);
+    const Boundary circle = Boundary::circle({ 3., 1. }, 0.6, n, true);
     boundary.elements.insert(boundary.elements.end(), circle.elements.begin(),
                              circle.elements.end());
     return boundary;
@@ -86,7 +86,7 @@ TEST(ClusteredHistory, time_domain)
 
 TEST(ClusteredHistory, convolution_quadrature)
 {
-  const Boundary boundary = two_holes();
+  const Boundary boundary = two_holes(0.36, 8);
   for (const RayleighDamping &damping :
        { RayleighDamping{ 0., 0. }, RayleighDamping{ 0.3, 0.02 } })
   {
@@ -155,7 +155,7 @@ TEST(ClusteredHistory, transform)
 /** Damping that spreads the fronts over more than the usual lags. */
 TEST(ClusteredHistory, stiffness_damping)
 {
-  const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 12, true);
+  const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 8, true);
   for (const double stiffness : { 0.3, 3. })
   {
     const ConvolutionQuadrature kernel(boundary, medium, 0.3, 500,
