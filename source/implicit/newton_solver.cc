@@ -337,22 +337,19 @@ namespace quoin
   template <int dim>
   bool NewtonSolver<dim>::break_joints()
   {
-    double largest = 0.;
+    const auto &history = balance.state.template get<JointHistoryOf<dim>>();
+    double largest      = 0.;
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
-      if (!broken[p])
-        largest = std::max(
-            largest, excess(model.joints(), p,
-                            balance.state.template get<JointHistoryOf<dim>>()));
+      largest = std::max(largest, excess(model.joints(), p, history));
     largest = dealii::Utilities::MPI::max(largest, communicator);
     if (largest <= 1e-9)
       return false;
     // The most overstressed point, and those that would follow at once.
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
-      if (!broken[p]
-          && excess(model.joints(), p,
-                    balance.state.template get<JointHistoryOf<dim>>())
-                 >= 0.7 * largest)
-        broken[p] = 1;
+      if (excess(model.joints(), p, history) >= 0.7 * largest)
+        broken[p] = std::uint8_t(history.state[p] == JointState::intact
+                                     ? JointLoss::peak
+                                     : JointLoss::cohesion);
     some_broke = true;
     return true;
   }

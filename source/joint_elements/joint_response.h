@@ -49,11 +49,10 @@ namespace quoin
   };
 
   /** Updates point @p p of @p history for @p opening and @p slip [m]; a brittle
-      one breaks only if it @p may_break. Books @p weight times the dissipation.
-   */
+      one waits for its @p loss. Books @p weight times the dissipation. */
   template <int dim, typename Law, typename History>
   JointResponse<dim> respond(const Law &law, const double opening,
-                             const Slip<dim> &slip, const bool may_break,
+                             const Slip<dim> &slip, const JointLoss loss,
                              const double weight, History &history,
                              const unsigned int p, EnergyAccounts &energy)
   {
@@ -63,8 +62,7 @@ namespace quoin
     JointResponse<dim> result;
     JointDissipation lost;
     if constexpr (Law::is_brittle)
-      lost
-          = law.update_waiting(point, opening, slip, may_break, result.tangent);
+      lost = law.update_waiting(point, opening, slip, loss, result.tangent);
     else
       lost = law.update(point, opening, slip, result.tangent);
     book(lost, weight, energy);

@@ -77,9 +77,10 @@ namespace quoin
       std::visit(
           [&](const auto &law)
           {
-            point = respond<2>(law, opening,
-                               slip_since_placing(history, p, slip), broken[p],
-                               area * segment.share, history, p, energy);
+            point
+                = respond<2>(law, opening, slip_since_placing(history, p, slip),
+                             static_cast<JointLoss>(broken[p]),
+                             area * segment.share, history, p, energy);
           },
           joints.laws()[segment.set]);
       result.inelastic += area * point.growth();

@@ -288,8 +288,9 @@ namespace quoin
             {
               point = respond<3>(
                   law, gap[0], slip_since_placing(history, p, slip),
-                  breaking && breaking->points[p], face.area * face.share,
-                  history, p, state.energy);
+                  breaking ? static_cast<JointLoss>(breaking->points[p])
+                           : JointLoss::nothing,
+                  face.area * face.share, history, p, state.energy);
             },
             all_laws[face.set]);
         element.inelastic += face.area * point.growth();

@@ -14,17 +14,17 @@ namespace quoin
   /**
    * Points of brittle joints that may break in a step of an implicit solver.
    *
-   * The tractions of a brittle joint jump when it breaks, which no Newton
-   * iteration survives. So in ForceOperator::linearise() intact points of a
-   * brittle law stay elastic beyond their strength unless these say that they
-   * break.
+   * The tractions of a brittle joint jump when it breaks, and those of one that
+   * keeps cohesion as it slips where it opens, which no Newton iteration
+   * survives. So in ForceOperator::linearise() points of a brittle law bear
+   * what they must beyond their strength until these say what they have lost.
    */
   template <int dim>
   struct BreakingJoints
   {
     static constexpr const char *slice_name = "breaking joints";
 
-    std::vector<std::uint8_t> points; /**< 1: it may; one entry for each */
+    std::vector<std::uint8_t> points; /**< JointLoss of each */
 
     template <typename Visitor>
     void visit(Visitor &visitor)

@@ -42,9 +42,9 @@ namespace quoin
                  bool with_stiffness = true);
 
   /**
-   * By how much entry @p point of @p history that stayed elastic in an
-   * equilibrium exceeds its strength, as a share of its stress; zero or less:
-   * it holds. See BreakingJoints.
+   * By how much entry @p point of @p history, which waits for its loss in an
+   * equilibrium, exceeds its strength, as a share of its stress or cohesion;
+   * zero or less: it holds. See BreakingJoints.
    */
   double excess(const MatchedJoints &joints, unsigned int point,
                 const JointHistory &history);

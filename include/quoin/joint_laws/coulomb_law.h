@@ -130,17 +130,22 @@ namespace quoin
                             JointTangent<dim> &tangent) const;
 
     /**
-     * As update(), but an intact joint stays elastic beyond its strength unless
-     * it @p breaks: no Newton iteration survives the jump. See excess().
+     * As update(), but what would make the tractions jump waits for @p loss,
+     * as no Newton iteration survives it: an intact joint stays elastic beyond
+     * its strength until its peak is lost; a closed one that opens keeps the
+     * shear of its residual cohesion until that is lost, from when on it has
+     * friction alone in this step, however often it opens and closes. One that
+     * was open before the step has that from its start. See excess().
      */
     template <int dim>
     JointDissipation update_waiting(JointPoint<dim> &point,
                                     const double opening, const Slip<dim> &slip,
-                                    const bool breaks,
+                                    const JointLoss loss,
                                     JointTangent<dim> &tangent) const;
 
     /** Excess of the stress of an intact @p point over its strength, as a
-       fraction of its stress; zero or less: it holds. */
+        fraction of its stress, or the shear of an open one by its cohesion;
+        zero or less: it holds. */
     template <int dim>
     double excess(const JointPoint<dim> &point) const;
 
@@ -187,6 +192,13 @@ namespace quoin
     }
 
   private:
+    /** As update(), for a joint without its peak that is open but keeps the
+        shear which its residual cohesion bears. */
+    template <int dim>
+    JointDissipation hold_shear(JointPoint<dim> &point, const double opening,
+                                const Slip<dim> &slip,
+                                JointTangent<dim> &tangent) const;
+
     /** Driving quantities of the slip of a failed joint at its trial tractions.
      */
     template <int dim>
@@ -346,25 +358,80 @@ namespace quoin
 
   template <int dim>
   inline JointDissipation
+  CoulombLaw::hold_shear(JointPoint<dim> &point, const double opening,
+                         const Slip<dim> &slip,
+                         JointTangent<dim> &tangent) const
+  {
+    const double kn = normal_stiffness, ks = shear_stiffness;
+    const double sigma_old    = point.normal_traction;
+    const Slip<dim> tau_old   = point.shear_traction;
+    const double sigma_trial  = kn * (opening - point.plastic_opening);
+    const Slip<dim> tau_trial = ks * (slip - point.plastic_slip);
+    const double sigma        = residual.tension;
+    const double strength
+        = std::max(0., residual.cohesion - sigma * residual.friction);
+    const Slip<dim> direction = direction_of(tau_trial);
+    const double size         = magnitude(tau_trial);
+    const double borne        = std::min(size, strength);
+    const double dp           = (size - borne) / ks;
+
+    tangent = { 0., {}, {}, isotropic<dim>(ks) };
+    if (size > strength) // where slip turns, so does what it bears
+      tangent.shear_slip
+          = ks * borne / size
+            * (isotropic<dim>(1.) - outer_product(direction, direction));
+
+    JointDissipation dissipation;
+    if (point.state == JointState::intact)
+      dissipation.fracture
+          = 0.5 * (sigma_old + sigma) * (sigma_trial - sigma_old) / kn
+            + 0.5 * sigma_old * sigma_old / kn - normal_energy(sigma_trial);
+    dissipation.friction = 0.5 * (tau_old * direction + borne) * dp;
+
+    point.normal_traction = sigma;
+    point.shear_traction  = borne * direction;
+    point.plastic_slip += dp * direction;
+    point.state = JointState::open;
+    return dissipation;
+  }
+
+  template <int dim>
+  inline JointDissipation
   CoulombLaw::update_waiting(JointPoint<dim> &point, const double opening,
-                             const Slip<dim> &slip, const bool breaks,
+                             const Slip<dim> &slip, const JointLoss loss,
                              JointTangent<dim> &tangent) const
   {
-    if (point.state != JointState::intact)
-      return update(point, opening, slip, tangent);
-    // The joint has residual strength from now on, or no strength limits it.
-    CoulombLaw law = *this;
-    law.peak       = breaks ? residual : JointStrength();
+    const bool intact = point.state == JointState::intact;
+    CoulombLaw law    = *this;
+    if (intact && loss == JointLoss::nothing)
+    {
+      law.peak = JointStrength(); // no strength limits it
+      return law.update(point, opening, slip, tangent);
+    }
+    if (behaviour().fails && residual.cohesion > 0.)
+    {
+      if (loss == JointLoss::cohesion || point.state == JointState::open)
+        law.residual.cohesion = 0.;
+      else if (normal_stiffness * (opening - point.plastic_opening)
+               > residual.tension)
+        return hold_shear(point, opening, slip, tangent);
+    }
+    if (intact)
+      law.peak = law.residual; // from now on
     return law.update(point, opening, slip, tangent);
   }
 
   template <int dim>
   inline double CoulombLaw::excess(const JointPoint<dim> &point) const
   {
-    if (point.state != JointState::intact || !behaviour().fails)
+    if (!behaviour().fails)
+      return 0.;
+    const double tau = magnitude(point.shear_traction);
+    if (point.state == JointState::open)
+      return tau > 0. ? tau / residual.cohesion : 0.;
+    if (point.state != JointState::intact)
       return 0.;
     const double sigma = point.normal_traction;
-    const double tau   = magnitude(point.shear_traction);
     const double shear = tau + sigma * peak.friction - peak.cohesion;
     const double size  = std::max(std::abs(sigma), tau);
     return size > 0. ? std::max(sigma - peak.tension, shear) / size : 0.;

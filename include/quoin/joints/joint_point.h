@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 
@@ -123,6 +124,15 @@ namespace quoin
     Slip<dim> normal_slip{};
     Slip<dim> shear_opening{};
     SlipGradient<dim> shear_slip{}; /**< row: of tau, column: by slip */
+  };
+
+  /** What a joint has lost in a step of an implicit solver, which takes it
+      away in this order, see CoulombLaw::update_waiting(). */
+  enum class JointLoss : std::uint8_t
+  {
+    nothing  = 0,
+    peak     = 1, /**< the strength of the intact joint */
+    cohesion = 2  /**< all but friction, as it has opened */
   };
 
   /** Energy per area that an update dissipated [J/m^2]. */

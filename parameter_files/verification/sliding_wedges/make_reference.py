@@ -25,6 +25,21 @@ def plane(dip=35.0, phi=40.0, cohesion=20e3):
         weight * s)
 
 
+def crack(dip=35.0, phi=40.0, cohesion=20e3, behind=9.0, head=2.0):
+    """Of a block before a crack in which the water stands at a head: thrusts
+    U across the plane, from the head at the crack to zero at the toe, and V."""
+    crest = 10 + 10 / math.tan(math.radians(60))
+    s, c = math.sin(math.radians(dip)), math.cos(math.radians(dip))
+    foot = TOE + behind * s / c
+    weight = GRAVITY * area([(10, TOE), (10 + behind, foot),
+                             (10 + behind, TOP), (crest, TOP)])
+    length = behind / c
+    uplift, thrust = 9810 * head * length / 2, 9810 * head**2 / 2
+    return (cohesion * length
+            + (weight * c - uplift - thrust * s) * math.tan(math.radians(phi))
+            ) / (weight * s + thrust * c)
+
+
 def push(factor, weight, dip, mu, pushed, sense):
     """The horizontal force that a block passes on.
 
@@ -73,9 +88,10 @@ def main():
     here = os.path.dirname(os.path.abspath(__file__))
     with open(os.path.join(here, "reference.csv"), "w") as stream:
         stream.write("plane [-],weak_plane [-],two_planes [-],"
-                     "weak_planes [-]\n%.6f,%.6f,%.6f,%.6f\n"
+                     "weak_planes [-],crack [-]\n"
+                     "%.6f,%.6f,%.6f,%.6f,%.6f\n"
                      % (plane(), plane(phi=18.5649, cohesion=8e3),
-                        two_planes(), two_planes(phi=19.2961)))
+                        two_planes(), two_planes(phi=19.2961), crack()))
 
 
 if __name__ == "__main__":
