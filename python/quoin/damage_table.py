@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""How much of a run's joints has failed, from joints.pvd: the length in each
-condition at every moment at which fields were written."""
+"""How much of a run's joints has failed, from joints.pvd: the length, in three
+dimensions the area, in each condition at every moment at which fields were
+written."""
 
 import os
 
@@ -21,30 +22,39 @@ CONDITIONS = {
 }
 
 
-def lengths(joints, peak_crushing, sets=None):
-    """Length of all joints and of those in each condition [m].
+def is_in_space(joints):
+    """Whether the faces of joints are triangles."""
+    return joints.cells.shape[1] == 3
 
-    Each end of a face stands for half of it. @p sets: numbers of the joint
-    sets that count, None: all. Damage and crushing are missing where no joint
-    softens.
+
+def lengths(joints, peak_crushing, sets=None):
+    """Length of all joints and of those in each condition [m], in three
+    dimensions area [m^2].
+
+    Each corner of a face stands for an equal part of it. @p sets: numbers of
+    the joint sets that count, None: all. Damage and crushing are missing where
+    no joint softens.
     """
-    ends = joints.cells
-    half = np.repeat(0.5 * joints.cell_data["length"][:, None], 2, axis=1)
-    of_set = np.repeat(joints.cell_data["joint set"][:, None], 2, axis=1)
+    corners = joints.cells
+    n = corners.shape[1]
+    size = joints.cell_data["area" if is_in_space(joints) else "length"]
+    part = np.repeat(size[:, None] / n, n, axis=1)
+    of_set = np.repeat(joints.cell_data["joint set"][:, None], n, axis=1)
     if sets is not None:
-        half = np.where(np.isin(of_set, sets), half, 0.0)
-    state = joints.point_data["point state"][ends]
+        part = np.where(np.isin(of_set, sets), part, 0.0)
+    state = joints.point_data["point state"][corners]
 
     def total(which):
-        return float(half[which].sum())
+        return float(part[which].sum())
 
-    found = {"all": float(half.sum()), "intact": total(state == INTACT),
+    found = {"all": float(part.sum()), "intact": total(state == INTACT),
              "slipping": total(state == SLIPPING),
              "open": total(state == OPEN)}
     if "damage" in joints.point_data:
         limit = np.asarray(peak_crushing)[of_set]
-        found["damaged"] = total(joints.point_data["damage"][ends] > 0.5)
-        found["crushed"] = total(joints.point_data["crushing"][ends] > limit)
+        found["damaged"] = total(joints.point_data["damage"][corners] > 0.5)
+        found["crushed"] = total(joints.point_data["crushing"][corners]
+                                 > limit)
     return found
 
 
@@ -63,9 +73,25 @@ def grid_of(record):
     return vtu.merge([vtu.read_vtu(file) for file in record[1]])
 
 
+def joints_since(series, then, output):
+    """A function of the grid of a moment of a @p series: what came after the
+    grid @p then alone, with one threshold for all moments."""
+    stiffness = run_parameters.of_joint_sets(output, "Shear stiffness")
+    largest = 0.0
+    for grid in filter(None, map(grid_of, series)):
+        if is_in_space(grid):
+            raise ValueError("what came after a time, --since, is counted in "
+                             "two dimensions alone")
+        growth = joint_movement.moved_since(grid, then, stiffness)[1]
+        largest = max(largest, growth.max(initial=0.0))
+    return lambda grid: joint_movement.since(grid, then, stiffness, largest)
+
+
 def read(output, names=(), time=None):
-    """Times [s], length of the joints [m], and lengths [m] in each condition
-    at these times; of the joint sets of these @p names, of all by default.
+    """Times [s], and at each of them the length of the joints that are there
+    [m] and lengths [m] in each condition, in three dimensions areas [m^2]; of
+    the joint sets of these @p names, of all by default. What is excavated then
+    or not placed yet has no joints, and the length is 0 where there are none.
 
     With a @p time [s]: of what came after the field nearest to it, and the
     moments after it (joint_movement.since()).
@@ -80,29 +106,28 @@ def read(output, names=(), time=None):
     sets = set_numbers(output, names) if names else None
     peak_crushing = run_parameters.peak_crushing(output)
     series = vtu.read_pvd(path)
+    counted = None
     if time is not None:
         check_times(output, "joints.pvd", [time])
-        then = vtu.read_at(path, time)
-        series = [record for record in series if record[0] >= then.time]
-        stiffness = run_parameters.of_joint_sets(output, "Shear stiffness")
-        # one threshold for all moments
-        largest = max(joint_movement.moved_since(grid, then, stiffness)[1]
-                      .max(initial=0.0) for grid in map(grid_of, series)
-                      if grid is not None)
+        begin = min((moment for moment, _ in series),
+                    key=lambda moment: abs(moment - time))
+        then = vtu.read_at(path, begin)
+        series = [record for record in series if record[0] >= begin]
+        counted = joints_since(series, then, output)
     rows = []
     for record in series:
         grid = grid_of(record)
-        if grid is not None and time is not None:
-            grid = joint_movement.since(grid, then, stiffness, largest)
+        if grid is not None and counted is not None:
+            grid = counted(grid)
         rows.append({} if grid is None
                     else lengths(grid, peak_crushing, sets))
     times = [moment for moment, _ in series]
-    if not rows or rows[0].get("all", 0.0) == 0.0:
+    length = np.array([row.get("all", 0.0) for row in rows])
+    if not length.any():
         raise ValueError(f"{path}: there are no joints in it")
-    length = rows[0]["all"]
     for row in rows:
-        row["failed"] = length - row.get("intact", 0.0)
+        row["failed"] = row.get("all", 0.0) - row.get("intact", 0.0)
     columns = {
         name: np.array([row.get(name, 0.0) for row in rows])
-        for name in CONDITIONS if name == "failed" or name in rows[0]}
+        for name in CONDITIONS if any(name in row for row in rows)}
     return np.array(times), length, columns

@@ -99,17 +99,20 @@ def moved_since(joints, then, shear_stiffness):
     the run: displacements, slips, tractions, and openings as far as they are
     beyond zero; and how far each end of a face opened or, apart from elastic
     slip by @p shear_stiffness [Pa/m] of each joint set, slipped meanwhile [m].
-    Faces that were not there at @p then count from zero.
+    Faces that were not there at @p then, None if there were none, count from
+    zero.
     """
-    joints, then = from_the_start(joints), from_the_start(then)
-    here, there, turned = matched(joints, then)
+    joints = from_the_start(joints)
     before = {name: np.zeros_like(values, dtype=float)
               for name, values in joints.point_data.items()}
-    at = joints.cells[here]
-    from_then = then.cells[there]
-    from_then = np.where(turned[:, None], from_then[:, ::-1], from_then)
-    for name, values in before.items():
-        values[at] = then.point_data[name][from_then]
+    if then is not None:
+        then = from_the_start(then)
+        here, there, turned = matched(joints, then)
+        at = joints.cells[here]
+        from_then = then.cells[there]
+        from_then = np.where(turned[:, None], from_then[:, ::-1], from_then)
+        for name, values in before.items():
+            values[at] = then.point_data[name][from_then]
     data = {name: values if name == "point state" else values - before[name]
             for name, values in joints.point_data.items()}
     data["opening"] = (np.maximum(joints.point_data["opening"], 0.0)

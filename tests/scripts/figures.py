@@ -237,6 +237,15 @@ class Joints(unittest.TestCase):
         self.assertEqual((found["all"], found["open"], found["crushed"]),
                          (4., 4., 0.))
 
+    def test_areas_in_space(self):
+        """Two triangles, one of whose corners is open."""
+        grid = Grid(0., np.zeros((6, 3)), np.arange(6).reshape(2, 3),
+                    {"point state": np.array([0, 0, 3, 0, 0, 0])},
+                    {"joint set": np.array([0, 0]),
+                     "area": np.array([3., 6.])})
+        self.assertEqual(damage_table.lengths(grid, [np.inf]),
+                         {"all": 9., "intact": 8., "slipping": 0., "open": 1.})
+
     def test_half_a_face(self):
         grid = joints()
         grid.point_data["point state"][2] = 0

@@ -12,6 +12,7 @@ import numpy as np
 
 from synthetic_runs import SLID, WIDE, NOTHING, joint_grid, write_run
 from quoin import damage_table, joint_movement, shared_motion, stages
+from quoin.commands import joint_damage
 from quoin.figures import block_figure, joint_figure
 from quoin.joint_states import INTACT, OPEN, SLIPPED, SLIPPING
 from quoin.vtu import Grid
@@ -302,7 +303,7 @@ class Stages(unittest.TestCase):
     def test_damage_since_a_stage_began(self):
         times, length, columns = damage_table.read(self.folder, (), 1.)
         self.assertEqual(list(times), [1., 2.])
-        self.assertEqual(length, 3.)
+        self.assertEqual(list(length), [3., 3.])
         self.assertEqual(columns["failed"][0], 0.)
         whole = damage_table.read(self.folder)
         self.assertEqual(list(whole[0]), [0., 1., 2.])
@@ -320,6 +321,32 @@ class Stages(unittest.TestCase):
                    for k, opening in enumerate((NOTHING, little, much))})
         columns = damage_table.read(folder, (), 0.)[2]
         self.assertEqual(list(columns["failed"]), [0., 0., 2.])
+
+
+    def test_joints_that_are_excavated_have_not_failed(self):
+        """Faces of 1 and 2 m, of which the first is open by 0.2 mm at an end,
+        both there, then the first one alone, then none."""
+        folder = self.folder + "_3"
+        both = joint_grid(WIDE, NOTHING)
+        write_run(folder, [0., 1., 2.], [0., 0., 0.], {
+            0: both, 1: joint_grid(WIDE, NOTHING, [0]), 2: joint_grid([], [])})
+        times, length, columns = damage_table.read(folder)
+        self.assertEqual(list(length), [3., 1., 0.])
+        self.assertEqual(list(columns["failed"]), [1.5, 0.5, 0.])
+        np.testing.assert_allclose(
+            joint_damage.share(columns["failed"], length),
+            [50., 50., np.nan])
+
+    def test_joints_that_are_placed_later(self):
+        """They are intact, not less than failed, and count from zero."""
+        folder = self.folder + "_4"
+        write_run(folder, [0., 1., 2.], [0., 0., 0.], {
+            0: joint_grid([], []), 1: joint_grid(NOTHING, NOTHING, [0]),
+            2: joint_grid(WIDE, NOTHING)})
+        for since in (None, 0.):
+            _, length, columns = damage_table.read(folder, (), since)
+            self.assertEqual(list(length), [0., 1., 3.])
+            self.assertEqual(list(columns["failed"]), [0., 0., 1.5])
 
 
 class SharedMotion(unittest.TestCase):

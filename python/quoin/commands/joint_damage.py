@@ -15,9 +15,11 @@ Of the fields in joints.pvd it takes the length of the joints that are
   damaged   having lost more than half of their strength (composite law)
   crushed   closed beyond the compressive strength (composite law)
 
-as a share of all joints, or with --length in metres, against time or, with
---against, a column of histories.csv. --sets takes some of the names in section
-'Joints', by default all. The numbers go to a csv file of the picture's name.
+as a share of the joints that are there at that moment, or with --length in metres,
+against time or, with --against, a column of histories.csv. What is excavated or not
+placed yet has none. --sets takes some of the names in section 'Joints', by default
+all. The numbers go to a csv file of the picture's name. In three dimensions areas
+take the place of lengths.
 
 --since TIME or STAGE counts what came after that time or since that stage began:
 joints that opened or, by their inelastic slip, slipped since then, more than a hundredth
@@ -31,7 +33,7 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 
-from quoin import damage_table, figures  # noqa: F401  (the look)
+from quoin import damage_table, figures, vtu  # noqa: F401  (the look)
 from quoin.colours import ORANGE, RED, VIOLET
 from quoin.commands.options import Parser, add_since
 from quoin.csv_table import Table, scale_for, unit_of
@@ -48,6 +50,19 @@ def abscissa(output, times, column):
     table = Table(os.path.join(output, "histories.csv"))
     return (table.full_name(column),
             np.interp(times, table.column(0), table.column(column)))
+
+
+def share(part, of):
+    """In per cent, nan where there is nothing."""
+    there = of > 0.0
+    return np.where(there, 100.0 * part / np.where(there, of, 1.0), np.nan)
+
+
+def is_in_space(output):
+    """Whether the joints of a run are those of three dimensions."""
+    path = os.path.join(output, "joints.pvd")
+    grids = filter(None, map(damage_table.grid_of, vtu.read_pvd(path)))
+    return damage_table.is_in_space(next(grids))
 
 
 def write_csv(path, x_name, x, columns, unit):
@@ -72,8 +87,10 @@ def draw(options):
         columns = {name: columns[name] for name in options.curves}
     x_name, x = abscissa(options.output, times, options.against)
     factor, unit = scale_for(unit_of(x_name), np.abs(x).max())
+    in_space = is_in_space(options.output)
+    size, unit_of_size = ("area", "m²") if in_space else ("length", "m")
     if not options.length:
-        columns = {name: 100.0 * y / length for name, y in columns.items()}
+        columns = {name: share(y, length) for name, y in columns.items()}
 
     figure, axes = plt.subplots(figsize=(6.0, 4.0), constrained_layout=True)
     for name, y in columns.items():
@@ -86,8 +103,10 @@ def draw(options):
         axes.plot(factor * x, y, style, color=colour, label=label)
     axes.set_xlabel(f"{x_name.split(' [')[0]} [{unit}]")
     what = " + ".join(options.sets) + " joints" if options.sets else "joints"
-    axes.set_ylabel(f"length of {what} [m]" if options.length
-                    else f"share of {what} [% of {length:.3g} m]")
+    first, last = f"{length.min():.3g}", f"{length.max():.3g}"
+    sizes = last if first == last else f"{first} to {last}"
+    axes.set_ylabel(f"{size} of {what} [{unit_of_size}]" if options.length
+                    else f"share of {what} [% of {sizes} {unit_of_size}]")
     axes.set_ylim(bottom=0.0)
     if options.since is None:
         axes.set_xlim(left=min(0.0, factor * x.min()))
@@ -99,7 +118,8 @@ def draw(options):
     path = options.out or os.path.join(options.output, "joint_damage.png")
     figure.savefig(path)
     table = os.path.splitext(path)[0] + ".csv"
-    write_csv(table, x_name, x, columns, "m" if options.length else "%")
+    write_csv(table, x_name, x, columns,
+              ("m^2" if in_space else "m") if options.length else "%")
     return path, table
 
 
@@ -116,7 +136,7 @@ def main():
     parser.add_argument("--curves", type=words, default=[],
                         metavar="NAME,...", help="some of the five above")
     parser.add_argument("--length", action="store_true",
-                        help="[m] instead of a share")
+                        help="[m], in three dimensions [m^2], not a share")
     add_since(parser, "count", "opening, inelastic slip, damage")
     parser.add_argument("--title")
     parser.add_argument("--out", metavar="FILE",

@@ -81,7 +81,7 @@ class Frame:
                              "s")
         self.blocks = blocks_since(self.blocks, then.blocks)
         self.shared = shared_motion(self.blocks)
-        if self.joints is not None and then.joints is not None:
+        if self.joints is not None:
             self.joints = since(self.joints, then.joints, run_parameters
                                 .of_joint_sets(output, "Shear stiffness"))
         if self.contacts is not None:
