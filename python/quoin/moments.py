@@ -37,6 +37,28 @@ def check_times(output, series, wanted):
                              f"from {recorded[0]:g} to {recorded[-1]:g} s")
 
 
+def decimals(step):
+    """As many as tell numbers apart that differ by so much."""
+    return int(np.clip(np.ceil(-np.log10(step) - 1e-9), 0, 12))
+
+
+def time_form(times, digits=4):
+    """The form in which times [s] are written above pictures beside each other:
+    with so many digits, or the decimals that it takes to tell them apart, such
+    as those of a blast after a long stage."""
+    times = np.unique(times)
+    if len({f"{time:.{digits}g}" for time in times}) == len(times):
+        return f"{digits}g"
+    return f"{decimals(np.diff(times).min())}f"
+
+
+def film_form(times):
+    """The same for a film, as long in all of its pictures."""
+    span = np.ptp(times)
+    return "2f" if span == 0.0 else (
+        f"{max(2, decimals(span / (len(times) - 1)))}f")
+
+
 def time_when(time, value, wanted, name):
     """When a history first reaches a value [s], on the line between rows.
 

@@ -19,7 +19,9 @@ from quoin.commands import plot
 from quoin.figures import block_figure
 from quoin import colours
 from quoin import csv_table
+from quoin import moments
 from quoin.figures import curve_figure
+from quoin.figures import field_figure
 from quoin.figures import figure_style
 from quoin.figures import joint_figure
 from quoin.figures import page_layout
@@ -282,6 +284,45 @@ class Places(unittest.TestCase):
             self.assertGreater(
                 extent.y0, axes.get_window_extent(renderer).y0 - 1.,
                 (size, view))
+
+
+class Times(unittest.TestCase):
+    """What stands above pictures of several moments tells them apart."""
+
+    def test_of_a_panel(self):
+        for times, form in (([0.1, 0.2], "4g"), ([12.009, 12.011], "3f"),
+                            ([0.], "4g"), ([3., 3.], "4g")):
+            self.assertEqual(moments.time_form(times), form)
+        self.assertEqual(moments.time_form([1.001, 1.002], 3), "3f")
+
+    def test_of_a_film(self):
+        for times, form in (([0., 1., 2.], "2f"), ([0., 2e-4, 4e-4], "4f"),
+                            ([5.], "2f")):
+            self.assertEqual(moments.film_form(times), form)
+
+    def test_captions(self):
+        frames = [types.SimpleNamespace(time=time, label=None)
+                  for time in (12.0093, 12.0107)]
+
+        class Drawn:
+            DIGITS = 4
+            caption = block_figure.Picture.caption
+
+            def draw(self, axes, frame, with_count):
+                return []
+
+        figure, axes = plt.subplots(1, 2)
+        self.addCleanup(plt.close, figure)
+        page_layout.draw_lettered(Drawn(), frames, axes)
+        self.assertEqual([part.get_title() for part in axes],
+                         ["(a) t = 12.009 s", "(b) t = 12.011 s"])
+
+    def test_milliseconds(self):
+        class Frame:
+            time, label = 0.01234, None
+        for form, text in (("3g", "12.3"), ("4f", "12.3"), ("2f", "12")):
+            self.assertEqual(field_figure.FieldPicture.caption(
+                None, Frame, form), f"t = {text} ms")
 
 
 class Cracks(unittest.TestCase):

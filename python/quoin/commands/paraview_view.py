@@ -55,6 +55,7 @@ import sys
 from quoin import colours, vtu
 from quoin.csv_table import with_unit
 from quoin.commands.options import Parser
+from quoin.moments import time_form
 from quoin.screen import has_screen
 from quoin.shared_motion import Motion, shared_motion
 from quoin.stages import end, time_of, time_or_name
@@ -121,6 +122,7 @@ class Views:
             raise ValueError(f"{output} has no "
                              f"{'field' if is_field else 'blocks'}.pvd "
                              "or .xdmf")
+        self.time_form = time_form(self.times)
         self.window = self.pv.GetActiveViewOrCreate("RenderView")
         self.time = self.nearest(self.times[-1] if time is None else time)
         self.window.ViewTime = self.time
@@ -472,7 +474,8 @@ class Views:
         self.pv.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
         self.window.ViewTime = nearest
         self.title.Text = (
-            f"{TITLES.get(self.what, self.what)}, t = {nearest:.4g} s"
+            f"{TITLES.get(self.what, self.what)}, t = "
+            f"{nearest:.{self.time_form}} s"
             + (f", displacements × {self.scale:g}"
                if self.scale not in (0.0, 1.0) else "")
             + (" without the motion of the whole" if motion else ""))

@@ -187,6 +187,8 @@ def frames_of(output, moments, since):
 class Picture:
     """Draws frames with one scale, one view and one range of colours."""
 
+    DIGITS = 4                       # of a time
+
     def __init__(self, options, frames):
         self.options = options
         self.scale = options.scale
@@ -304,9 +306,9 @@ class Picture:
         return np.array(MATERIALS)[
             blocks.cell_data["material"] % len(MATERIALS)]
 
-    def caption(self, frame, digits="4g"):
-        """Which moment it is."""
-        return frame.label or f"t = {frame.time:.{digits}} s"
+    def caption(self, frame, form):
+        """Which moment it is, by its time in this form."""
+        return frame.label or f"t = {frame.time:.{form}} s"
 
     def remark(self):
         """Remark that applies to all output times."""

@@ -51,6 +51,8 @@ class FieldFrame:
 class FieldPicture:
     """Draws frames with one view and one range of colours."""
 
+    DIGITS = 3                       # of a time
+
     def __init__(self, options, frames):
         self.options = options
         self.name = ("displacement" if options.colour == "displacement"
@@ -89,11 +91,13 @@ class FieldPicture:
         axes.set_aspect("equal")
         return []
 
-    def caption(self, frame, digits="3g"):
+    def caption(self, frame, form):
         for factor, unit in ((1.0, "s"), (1e3, "ms")):
             if frame.time * factor >= 0.1:
                 break
-        return frame.label or f"t = {frame.time * factor:.{digits}} {unit}"
+        if factor != 1.0 and form.endswith("f"):
+            form = f"{max(0, int(form[:-1]) - 3)}f"  # decimals of seconds
+        return frame.label or f"t = {frame.time * factor:.{form}} {unit}"
 
     def remark(self):
         return ""

@@ -2,8 +2,8 @@
 # Copyright (C) 2026 The quoin authors
 """Puts the pictures of scripts/render on a page: one, several, or a film.
 
-A picture has draw(axes, frame, with_count), caption(frame, digits), remark(),
-colour_bars() and extent.
+A picture has draw(axes, frame, with_count), caption(frame, form), in which the time
+has this form, remark(), colour_bars(), extent and DIGITS, those of a time.
 """
 
 import io
@@ -14,6 +14,8 @@ import matplotlib.pyplot as plt
 from matplotlib.transforms import ScaledTranslation
 from mpl_toolkits.axes_grid1.inset_locator import inset_axes
 import numpy as np
+
+from quoin.moments import film_form, time_form
 
 PANEL_WIDTH = 8.0                    # [inch]
 LABELS_PER_INCH = 5
@@ -31,9 +33,13 @@ def hide_frame(axes):
         spine.set_visible(False)
 
 
-def heading(picture, frame, digits="4g"):
+def heading(picture, frame, form):
     remark = picture.remark()
-    return picture.caption(frame, digits) + (", " + remark if remark else "")
+    return picture.caption(frame, form) + (", " + remark if remark else "")
+
+
+def times_of(frames):
+    return [frame.time for frame in frames]
 
 
 def draw_moment(picture, frame):
@@ -45,7 +51,8 @@ def draw_moment(picture, frame):
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     title = picture.options.title
-    axes.set_title((title + ", " if title else "") + heading(picture, frame))
+    axes.set_title((title + ", " if title else "")
+                   + heading(picture, frame, f"{picture.DIGITS}g"))
     for k, (mappable, label) in enumerate(picture.colour_bars()):
         # As wide on any model, and as high as this one.
         beside = axes.transAxes + ScaledTranslation(
@@ -99,13 +106,15 @@ def draw_lettered(picture, frames, all_axes):
     """Pictures (a), (b), ...; returns what their legend shall have, in the
     order of the picture that has most."""
     handles, place = {}, {}
+    form = time_form(times_of(frames), picture.DIGITS)
     for k, (axes, frame) in enumerate(zip(all_axes, frames)):
         for n, handle in enumerate(picture.draw(axes, frame,
                                                 with_count=False)):
             label = handle.get_label()
             handles.setdefault(label, handle)
             place[label] = max(n, place.get(label, 0))
-        axes.set_title(f"({letter(k)}) {picture.caption(frame)}", fontsize=9)
+        axes.set_title(f"({letter(k)}) {picture.caption(frame, form)}",
+                       fontsize=9)
         hide_frame(axes)
     return [handles[label] for label in sorted(handles, key=place.get)]
 
@@ -151,8 +160,9 @@ def place_legend(figure, all_axes, handles, remark):
         figure.text(x, y - 0.02, remark, fontsize=8, ha="center", va="top")
 
 
-def film_image(picture, frame, dpi):
-    """One picture of a film; all of them are of the same size."""
+def film_image(picture, frame, form, dpi):
+    """One picture of a film; all of them are of the same size, and of one @p
+    form of the time."""
     from PIL import Image
 
     height = height_for(6.5, picture.extent) + 0.4
@@ -160,7 +170,7 @@ def film_image(picture, frame, dpi):
                                 constrained_layout=True)
     picture.draw(axes, frame, with_count=False)
     hide_frame(axes)
-    axes.set_title(heading(picture, frame, digits="2f"))
+    axes.set_title(heading(picture, frame, form))
     for mappable, label in picture.colour_bars():
         figure.colorbar(mappable, label=label, ax=axes, shrink=0.8)
     stream = io.BytesIO()
@@ -176,9 +186,10 @@ def write_film(picture, frames, path):
     from PIL import Image
 
     span = frames[-1].time - frames[0].time
+    form = film_form(times_of(frames))
     step = int(np.clip(1000 * span / max(len(frames) - 1, 1), 50, 200))
     for dpi in (100, 80, 60, 45, 30):
-        images = [film_image(picture, frame, dpi) for frame in frames]
+        images = [film_image(picture, frame, form, dpi) for frame in frames]
         # One palette for all, or the colours of the stones flicker; of octrees,
         # which keep what is seen in few places, such as slipping joints.
         sample = Image.fromarray(np.hstack(
