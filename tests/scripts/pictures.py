@@ -11,10 +11,12 @@ import sys
 import tempfile
 import types
 import unittest
+from unittest import mock
 
 import numpy as np
 
-from synthetic_runs import SCRIPTS
+from synthetic_runs import SCRIPTS, write_vtu
+from quoin.commands import paraview_view
 from quoin.commands import plot
 from quoin.figures import block_figure
 from quoin import colours
@@ -323,6 +325,49 @@ class Times(unittest.TestCase):
         for form, text in (("3g", "12.3"), ("4f", "12.3"), ("2f", "12")):
             self.assertEqual(field_figure.FieldPicture.caption(
                 None, Frame, form), f"t = {text} ms")
+
+
+class ParaView(unittest.TestCase):
+    """What is asked of ParaView, which need not be there."""
+
+    def views(self, dim):
+        views = paraview_view.Views.__new__(paraview_view.Views)
+        for name, value in dict(pv=mock.MagicMock(), main=None, window=None,
+                                time=0., scale=1., is_shared=False, dim=dim,
+                                limits=None).items():
+            setattr(views, name, value)
+        return views
+
+    def test_the_minor_stress_is_the_last_one(self):
+        for dim in (2, 3):
+            views = self.views(dim)
+            views.draw_blocks("stress")
+            self.assertEqual(views.pv.Calculator.return_value.Function,
+                             f'1e-06*"principal stress {dim}"')
+
+    def test_crosses_have_an_arm_for_each_stress(self):
+        for dim in (2, 3):
+            views = self.views(dim)
+            with mock.patch.multiple(
+                    views, size=lambda: 1., usual_stress=lambda _: 1e6,
+                    draw_scale=mock.DEFAULT):
+                views.draw_crosses(mock.MagicMock())
+            self.assertEqual(
+                [call.kwargs["registrationName"]
+                 for call in views.pv.Glyph.call_args_list],
+                [f"stress {k + 1}" for k in range(dim)])
+
+    def test_dimension(self):
+        with tempfile.TemporaryDirectory() as folder:
+            views = self.views(None)
+            views.output = folder
+            self.assertEqual(views.dimension(), 2)
+            write_vtu(os.path.join(folder, "blocks.vtu"), 0., np.eye(4, 3),
+                      np.array([[0, 1, 2, 3]]), {}, {})
+            with open(os.path.join(folder, "blocks.pvd"), "w") as file:
+                file.write('<VTKFile><Collection><DataSet timestep="0" '
+                           'file="blocks.vtu"/></Collection></VTKFile>')
+            self.assertEqual(views.dimension(), 3)
 
 
 class Cracks(unittest.TestCase):

@@ -123,6 +123,7 @@ class Views:
                              f"{'field' if is_field else 'blocks'}.pvd "
                              "or .xdmf")
         self.time_form = time_form(self.times)
+        self.dim = self.dimension()
         self.window = self.pv.GetActiveViewOrCreate("RenderView")
         self.time = self.nearest(self.times[-1] if time is None else time)
         self.window.ViewTime = self.time
@@ -160,6 +161,12 @@ class Views:
         if self.times is None:
             self.times = list(reader.TimestepValues or [0.0])
         return found
+
+    def dimension(self):
+        """Of the blocks; the field of boundary elements has two."""
+        path = os.path.join(self.output, "blocks.pvd")
+        blocks = vtu.read_at(path) if vtu.exists(path) else None
+        return 2 if blocks is None else blocks.cells.shape[1] - 1
 
     # Displacements ---------------------------------------------------------
 
@@ -286,8 +293,9 @@ class Views:
             # factors of the unit that is shown
             if self.limits:
                 self.limits = [1e-6 * value for value in self.limits]
-            blocks = self.multiplied(blocks, "principal stress 2", 1e-6,
-                                     "minor principal stress")
+            # the last one, as they are in the order of their values
+            blocks = self.multiplied(blocks, f"principal stress {self.dim}",
+                                     1e-6, "minor principal stress")
         shown = self.pv.Show(blocks, self.window)
         shown.Representation = "Surface"
         blocks.UpdatePipeline(self.time)
@@ -310,13 +318,13 @@ class Views:
         shown.Ambient, shown.Diffuse, shown.Specular = 1.0, 0.0, 0.0
 
     def draw_crosses(self, blocks):
-        """Bars along both principal directions, as long as the stress."""
+        """Bars along all principal directions, as long as the stress."""
         centres = self.pv.CellCenters(Input=blocks, registrationName="centres")
         centres.UpdatePipeline(self.time)
         reference = self.usual_stress(centres)
         length = self.size() / ACROSS
         most = LONGEST * reference
-        for k in (1, 2):
+        for k in self.principal():
             name = f"cut stress {k}"
             cut = self.pv.Calculator(Input=centres, registrationName=name)
             cut.Function = (f'max(min("principal stress {k}", {most!r}), '
@@ -342,13 +350,17 @@ class Views:
             shown.SetScalarBarVisibility(self.window, False)
         self.draw_scale(blocks, length, reference)
 
+    def principal(self):
+        """The numbers of the principal stresses."""
+        return range(1, self.dim + 1)
+
     def usual_stress(self, centres):
         """A round number below the largest of each ten stresses [Pa], so
         that the few at a corner do not make all others invisible."""
         data = self.pv.servermanager.Fetch(centres).GetPointData()
         sizes = sorted(
             max(abs(data.GetArray(f"principal stress {k}").GetValue(i))
-                for k in (1, 2))
+                for k in self.principal())
             for i in range(data.GetArray("principal stress 1")
                            .GetNumberOfTuples()))
         sizes = [size for size in sizes if size > 1e-6 * sizes[-1]] or [1.0]
@@ -357,8 +369,8 @@ class Views:
     def draw_scale(self, blocks, length, reference):
         """A bar as long as the cross of the reference stress, below all."""
         b = blocks.GetDataInformation().GetBounds()
-        x, y = b[0], b[2] - 2.0 * length
-        bar = self.pv.Line(Point1=[x, y, 0.0], Point2=[x + length, y, 0.0],
+        x, y, z = b[0], b[2] - 2.0 * length, b[4] if self.dim == 3 else 0.0
+        bar = self.pv.Line(Point1=[x, y, z], Point2=[x + length, y, z],
                            registrationName="scale")
         self.draw_lines(bar, rgb(colours.COMPRESSION), 3)
         label = self.pv.Text(registrationName="stress of the scale")
@@ -366,7 +378,7 @@ class Views:
                       f"{with_unit(LONGEST * reference, 'Pa')}")
         self.draw_text(label, TextPropMode="Billboard 3D Text",
                        BillboardPosition=[x + 1.3 * length, y - 0.3 * length,
-                                          0.0])
+                                          z])
 
     def draw_joints(self, joints, name, states):
         """Their points lie at current positions: the displacement is in them
@@ -376,7 +388,8 @@ class Views:
             return
         moved = self.warped(joints, "deformed " + name, is_joint=True)
         apart = self.pv.Calculator(Input=moved, registrationName=name + " apart")
-        apart.Function = 'sqrt("opening"*"opening" + "slip"*"slip")'
+        square = '"slip"*"slip"' if self.dim == 2 else 'dot("slip","slip")'
+        apart.Function = f'sqrt("opening"*"opening" + {square})'
         apart.ResultArrayName = "apart"
         moved = self.pv.Threshold(Input=apart, registrationName=name + " near")
         moved.Scalars = ["POINTS", "apart"]
