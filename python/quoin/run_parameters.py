@@ -71,6 +71,28 @@ def lines_of(path):
                 yield line
 
 
+def files_in(folder, words):
+    """The files beside a parameter file that these texts of it name, such as
+    meshes, tables and records, and those that a geometry merges or includes."""
+    found = []
+
+    def add(path):
+        if os.path.isfile(path) and path not in found:
+            found.append(path)
+            if path.endswith(".geo"):
+                with open(path, encoding="utf-8", errors="replace") as file:
+                    for name in re.findall(r'(?:Merge|Include)\s*"([^"]+)"',
+                                           file.read()):
+                        add(os.path.join(os.path.dirname(path), name))
+
+    for text in words:
+        value = text.partition("=")[2]
+        for name in (value.strip(), *re.split(r"[\s;,]+", value)):
+            if name:
+                add(os.path.normpath(os.path.join(folder, name)))
+    return found
+
+
 def output_of(case, overrides=()):
     """The output directory that a parameter file, or "Name=value" that
     overrides it, names."""

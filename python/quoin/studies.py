@@ -3,14 +3,15 @@
 """Runs a case for all combinations of some parameters.
 
 Each run has a folder in that of the study, named by a fingerprint of what was
-changed and of the parameter file, with quoin's output and run.json, which says
-how it ended. A run whose folder says that it ended is not made again, one that was
+changed, of the parameter file and of the meshes and tables that it names, with
+quoin's output and run.json, which says how it ended. A run whose folder says that it ended is not made again, one that was
 interrupted goes on from its checkpoint, and one that another process makes is left
 to it; so a study that was stopped, or whose grid has grown, goes on where it was.
 """
 
 import contextlib
 import csv
+import functools
 import hashlib
 import itertools
 import json
@@ -48,12 +49,22 @@ def combinations(grid):
             for parts in itertools.product(*axes)]
 
 
+@functools.lru_cache(maxsize=None)
+def contents(path, _changed, _size):
+    """Fingerprint of a file, read again if it was changed."""
+    with open(path, "rb") as file:
+        return hashlib.sha1(file.read()).hexdigest()
+
+
 def fingerprint(case, overrides, options=()):
-    """Fingerprint of a parameter file, those that it includes, and what is
-    changed."""
+    """Fingerprint of a parameter file, those that it includes, what is changed,
+    and the meshes, tables and records that these name."""
     words = [line for line in run_parameters.lines_of(case) if line]
     words += sorted(entry(*item) for item in overrides.items())
     words += options
+    for path in run_parameters.files_in(os.path.dirname(case), words):
+        known = os.stat(path)
+        words.append(contents(path, known.st_mtime_ns, known.st_size))
     return hashlib.sha1("\n".join(words).encode()).hexdigest()[:12]
 
 
@@ -131,8 +142,9 @@ def study(case, grid, output, collect=None, processes=1, ranks=1, quoin=None,
     the others, "seconds", how many "warnings" the run gave (Results.warnings
     are their texts), "folder" and what collect() gave, nan where it gave
     nothing. study.csv is written after each run. Ctrl-C, and whatever else ends
-    the study, ends its runs with their checkpoints. A changed mesh or table is
-    not noticed: delete the folder of the study then.
+    the study, ends its runs with their checkpoints. A run is made again where
+    the parameter file, a mesh or a table that it names has changed; another
+    version of quoin is not noticed: delete the folder of the study then.
     """
     chosen = {
         os.path.join(output, fingerprint(case, overrides, options)): overrides

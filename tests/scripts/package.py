@@ -255,6 +255,32 @@ class Runs(unittest.TestCase):
                                 ["finished", "to come"]])
         self.assertEqual(self.csv(), ["finished", "finished"])
 
+    def test_a_changed_mesh(self):
+        """And what that includes; the same again after it was changed back."""
+        names = [os.path.join(self.folder, name)
+                 for name in ("hill.geo", "sizes.geo", "blow.txt")]
+
+        def write(path, text):
+            with open(path, "w") as file:
+                file.write(text)
+
+        write(names[0], 'Include "sizes.geo";\nPoint(1) = {0, 0, 0};\n')
+        for path in names[1:]:
+            write(path, "size = 1;\n")
+        with open(self.case, "a") as file:
+            file.write("set File = hill.geo\nset Value = table blow.txt; 2\n")
+        self.study([1], (1,))
+        self.called()
+        for path in names:
+            with open(path) as file:
+                before = file.read()
+            write(path, before + "// finer\n")
+            self.study([1], (1,))
+            self.assertEqual(self.called(), [1], path)
+            write(path, before)
+            self.study([1], (1,))
+            self.assertEqual(self.called(), [], path)
+
     def test_a_run_that_another_process_makes(self):
         folder = self.study([1], (1,))["folder"][0]
         self.called()

@@ -18,7 +18,8 @@ safety of finite elements lies above the limit.
 
 Results go to the output directory of the case with _mesh at its end (or --output
 DIR): a folder each run, study.csv, and mesh_convergence.csv, the table on the
-screen. Runs that are there already are not made again.
+screen. Runs that are there already are not made again, unless the parameter file,
+the mesh or a table has changed.
 """
 
 import csv
