@@ -208,6 +208,10 @@ class Comparison:
             if any(grid is None for grid in grids):
                 self.notes.append(f"no joints {name} in both runs")
                 return None
+            if any(grid.cells.shape[1] != 2 for grid in grids):
+                self.notes.append("joints are not compared: those of three "
+                                  "dimensions are no lines")
+                return None
             ways = [way for _, way in moments]
             if abs(ways[1] - ways[0]) > FAR * (self.last - self.first):
                 self.notes.append(

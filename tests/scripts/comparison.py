@@ -17,6 +17,7 @@ from synthetic_runs import (NOTHING, SCRIPTS, SLID, SPEC, WIDE, Folders,
 from quoin import joint_comparison
 from quoin import run_parameters
 from quoin import solver_comparison
+from quoin.vtu import Grid
 
 
 class Numbers(Folders):
@@ -146,6 +147,20 @@ class Ways(unittest.TestCase):
             self.assertEqual(numbers["curves"]["to [mm]"], 5.)
             self.assertIsNone(numbers["joints"])
             self.assertIn("joints are not compared", numbers["notes"][-1])
+
+    def test_joints_in_space_are_not_compared(self):
+        triangle = Grid(0., np.eye(3), np.array([[0, 1, 2]]),
+                        {"displacement": np.zeros((3, 3))},
+                        {"joint set": np.zeros(1, np.int32)})
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [os.path.join(folder, name) for name in "ei"]
+            for path in paths:
+                write_run(path, [0., 1.], [0., 1e3],
+                          {0: triangle, 1: triangle})
+            numbers = solver_comparison.Comparison(
+                SPEC, folder, *paths).numbers()
+            self.assertIsNone(numbers["joints"])
+            self.assertIn("those of three dimensions", numbers["notes"][-1])
 
 
 class Joints(unittest.TestCase):

@@ -421,7 +421,10 @@ class Pictures(unittest.TestCase):
         self.draws("render", "--scale", "1", "--beams", "moment")
         self.refuses("for runs of section 'Water'", "render", "--joints",
                      "water")
-        self.refuses("no beam is placed", "beam_figure", "--time", "0")
+        self.draws("beam_figure", "--time", "behind")
+        self.refuses("no beam is placed", "beam_figure", "--time", "face")
+        self.refuses("no field was written near 99 s", "beam_figure",
+                     "--time", "99")
 
     def test_wall_figure(self):
         self.draws("wall_figure", "--spec",

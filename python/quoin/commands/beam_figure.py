@@ -6,8 +6,9 @@
   scripts/beam_figure OUTPUT_DIR --time 0.2 --out beams.pdf
   scripts/beam_figure OUTPUT_DIR --diagram
 
-Of the fields in beams.pvd, at the last time or that of --time, it draws N and M
-across the lines where they were placed: positive values on their left. --diagram
+Of the fields in beams.pvd, at the last time or that of --time, a time or the end of a
+stage, it draws N and M across the lines where they were placed: positive values on
+their left. --diagram
 draws M against N of all nodes of beams with strengths, one picture each: within the
 lines the elastic stresses of the outer fibres, N/A and M by the section modulus, stay
 below the strengths divided by 1, 1.5 and 2.
@@ -23,6 +24,8 @@ from quoin import figures, run_parameters, vtu  # noqa: F401  (the look)
 from quoin.colours import COMPRESSION
 from quoin.commands.options import Parser
 from quoin.figures.beam_lines import draw_diagram
+from quoin.moments import check_times
+from quoin.stages import end, time_of, time_or_name
 
 NEEDED = ("Thickness", "Area", "Second moment", "Depth",
           "Compressive strength", "Tensile strength")
@@ -84,9 +87,13 @@ def draw(options):
     path = os.path.join(options.output, "beams.pvd")
     if not vtu.exists(path):
         raise ValueError(f"{path}: the run has no beams")
-    grid = vtu.read_at(path, options.time)
+    time = time_of(options.output, options.time, end)
+    if time is not None:
+        check_times(options.output, "beams.pvd", [time])
+    grid = vtu.read_at(path, time)
     if grid is None or len(grid.cells) == 0:
         raise ValueError(f"{path}: no beam is placed at that time")
+    title = f"t = {grid.time:.4g} s"
     if options.diagram:
         sections = {number: section for number, section
                     in strengths_of(options.output).items()
@@ -97,6 +104,7 @@ def draw(options):
         figure = plt.figure(figsize=(4.8 * len(sections), 4.4),
                             constrained_layout=True)
         draw_diagrams(figure, grid, sections)
+        figure.suptitle(title)
         name = options.out or os.path.join(options.output, "thrust_moment.png")
         figure.savefig(name, dpi=200)
         return name
@@ -104,6 +112,7 @@ def draw(options):
                                 constrained_layout=True)
     draw_field(axes[0], grid, "axial force", "kN")
     draw_field(axes[1], grid, "moment", "kN m")
+    figure.suptitle(title)
     name = options.out or os.path.join(options.output, "beams.png")
     figure.savefig(name, dpi=200)
     return name
@@ -112,8 +121,9 @@ def draw(options):
 def main():
     parser = Parser(__doc__)
     parser.add_argument("output", metavar="OUTPUT_DIR")
-    parser.add_argument("--time", type=float,
-                        help="of the fields [s], default the last")
+    parser.add_argument("--time", type=time_or_name,
+                        help="of the fields [s], or a stage: its end; default "
+                             "the last")
     parser.add_argument("--diagram", action="store_true",
                         help="M against N, with lines of the strengths")
     parser.add_argument("--out", metavar="FILE",

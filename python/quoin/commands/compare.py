@@ -32,7 +32,7 @@ import sys
 from quoin import run_parameters
 from quoin.commands.options import Parser, add_picture_options, positive
 from quoin.csv_table import as_text, unit_of
-from quoin.figures.block_figure import Frame, Picture
+from quoin.figures.block_figure import Frame, Picture, is_in_space
 from quoin.figures.page_layout import draw_panel
 from quoin.running import CHECKOUT, command, environment
 from quoin.solver_comparison import SOLVERS, THRESHOLD, Comparison, spec_of
@@ -69,7 +69,9 @@ def ways_of(comparison, wanted):
 
 def draw_cracks(comparison, options, path):
     """Both runs side by side, a row a moment; the path, or None without
-    fields."""
+    fields or in three dimensions."""
+    if any(is_in_space(run.folder) for run in comparison.runs):
+        return None
     unit = unit_of(comparison.figure.x_label)
     frames = []
     for way, word in ways_of(comparison, options.at):
