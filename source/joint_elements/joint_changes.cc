@@ -162,6 +162,21 @@ namespace quoin
     history.placed_opening.resize(joints.n_points(), 0.);
   }
 
+  std::array<std::array<double, 2>, 2>
+  gaps_since_placing(const MatchedJoints &joints, const unsigned int i,
+                     const State<2> &state)
+  {
+    auto gaps = joint_gaps(joints.segments()[i], state.nodes.data());
+    const JointHistory &history = state.get<JointHistory>();
+    if (!history.placed_slip.empty() && !history.handed_over[i])
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        gaps[k][0] -= history.placed_opening[2 * i + k];
+        gaps[k][1] -= history.placed_slip[2 * i + k];
+      }
+    return gaps;
+  }
+
   void keep_joint_tractions(const MatchedJoints &joints, State<2> &state)
   {
     JointHistory &history = state.get<JointHistory>();

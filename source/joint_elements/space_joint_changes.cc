@@ -148,7 +148,8 @@ namespace quoin
           for (unsigned int k = 0; k < 3; ++k)
           {
             PointOf<decltype(law), 3> point;
-            point.plastic_opening = gaps[k][0];
+            point.plastic_opening             = gaps[k][0];
+            history.placed_opening[3 * i + k] = gaps[k][0];
             set_slip<3>(history.placed_slip, 3 * i + k, slip_of(gaps[k]));
             write_point(point, history, 3 * i + k);
           }
@@ -159,6 +160,24 @@ namespace quoin
   void count_from_placing(const SpaceJoints &joints, SpaceJointHistory &history)
   {
     history.placed_slip.resize(2 * joints.n_points(), 0.);
+    history.placed_opening.resize(joints.n_points(), 0.);
+  }
+
+  std::array<SpaceJointGap, 3> gaps_since_placing(const SpaceJoints &joints,
+                                                  const unsigned int i,
+                                                  const State<3> &state)
+  {
+    auto gaps = joint_gaps(joints.faces()[i], state.nodes.data());
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    if (!history.placed_slip.empty())
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const unsigned int p = 3 * i + k;
+        gaps[k][0] -= history.placed_opening[p];
+        for (const unsigned int d : { 0, 1 })
+          gaps[k][1 + d] -= history.placed_slip[2 * p + d];
+      }
+    return gaps;
   }
 
   void keep_joint_tractions(const SpaceJoints &joints, State<3> &state)

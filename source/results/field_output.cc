@@ -4,6 +4,7 @@
 #include <quoin/base/packed_vectors.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/contact/law_fields.h>
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/results/field_output.h>
 #include <quoin/results/result_origin.h>
@@ -115,7 +116,7 @@ namespace quoin
       if (!model.nodes().faces().joints[segment.face].is_own[0]
           || is_at_absent_block(model, i, state))
         continue;
-      const auto gaps = joint_gaps(segment, state.nodes.data());
+      const auto gaps = gaps_since_placing(model.joints(), i, state);
       fields.joint_set.push_back(segment.set);
       fields.handed_over.push_back(history.handed_over[i]);
       for (unsigned int k = 0; k < 2; ++k)
@@ -173,7 +174,7 @@ namespace quoin
           || is_at_absent_block(model, i, state))
         continue;
       const SpaceJointFrame frame = joint_frame(face, state.nodes.data());
-      const auto gaps             = joint_gaps(face, state.nodes.data());
+      const auto gaps             = gaps_since_placing(joints, i, state);
       const auto in_plane         = [&](const double s, const double t)
       { return s * frame.s + t * frame.t; };
       fields.joint_set.push_back(face.set);

@@ -7,6 +7,7 @@
 #include <quoin/block_elements/triangle.h>
 #include <quoin/contact/face_contacts.h>
 #include <quoin/contact/law_fields.h>
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/point_values.h>
 #include <quoin/results/result_origin.h>
@@ -60,8 +61,8 @@ namespace quoin
       if (component >= 2 && model.contacts() && history.handed_over[p / 2])
         return contact_value(model, component, p, state);
       if (component < 2)
-        return joint_gaps(model.joints().segments()[p / 2],
-                          state.nodes.data())[p % 2][component];
+        return gaps_since_placing(model.joints(), p / 2,
+                                  state)[p % 2][component];
       if (component == 2)
         return history.normal_traction[p];
       if (component == 3)
@@ -83,7 +84,7 @@ namespace quoin
       const SpaceJoints &joints        = model.joints();
       const SpaceJointFace &face       = joints.faces()[p / 3];
       const SpaceJointHistory &history = state.get<SpaceJointHistory>();
-      SpaceJointGap gap = joint_gaps(face, state.nodes.data())[p % 3];
+      SpaceJointGap gap = gaps_since_placing(joints, p / 3, state)[p % 3];
       for (const unsigned int d : { 0, 1 })
         gap[1 + d] -= slip_at_origin(state, p, d);
       switch (component)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/results/result_origin.h>
 
@@ -22,9 +23,9 @@ namespace quoin
         if (is_at_absent_block(model, c / n, state))
           origin.slip[c] = 0.;
         else if (reset.slips)
-          origin.slip[c] = joint_gaps(
-              faces[c / n],
-              state.nodes.data())[c % n / (dim - 1)][1 + c % (dim - 1)];
+          origin.slip[c]
+              = gaps_since_placing(model.joints(), c / n,
+                                   state)[c % n / (dim - 1)][1 + c % (dim - 1)];
 
       if (reset.joint_states)
         origin.has_failed.assign(history.state.size(), 0);

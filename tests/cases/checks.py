@@ -1663,9 +1663,10 @@ def space_sphere_step(case, folder, output, histories):
 
 
 def space_fill(case, folder, output, histories):
-    """Displacements of the top of both lifts and the traction between them at
-    the end of each stage, relative to the largest of the stage. "in situ": the
-    lower one bears its weight from the start."""
+    """Displacements of the top of both lifts, the traction between them and the
+    opening of their joint since the upper one was placed at the end of each
+    stage, relative to the largest of the stage. "in situ": the lower one bears
+    its weight from the start."""
     exact = reference_module(folder)
     with open(os.path.join(output, "summary.json")) as stream:
         summary = json.load(stream)
@@ -1677,14 +1678,17 @@ def space_fill(case, folder, output, histories):
         before = histories["time"] <= end["time [s]"] * (1 + margin)
         last = histories["time"][before][-1]
         row = np.flatnonzero(histories["time"] == last)[0]
-        found = [histories[name][row] for name in ("low", "high", "traction")]
+        found = [histories[name][row]
+                 for name in ("low", "high", "traction", "opening")]
         scale = max(abs(wanted[0]), abs(wanted[1]))
         if case.get("in situ") and stage == "settle":
-            wanted = (0.0, 0.0, 0.0)
+            wanted = (0.0, 0.0, 0.0, 0.0)
         errors["displacements, " + stage] = float(
             np.max(np.abs(np.subtract(found[:2], wanted[:2]))) / scale)
         errors["traction, " + stage] = float(
             abs(found[2] - wanted[2]) / abs(exact.stages()[-1][2]))
+        errors["opening, " + stage] = float(
+            abs(found[3] - wanted[3]) / abs(exact.stages()[-1][3]))
     errors["energy residual"] = residual_of(energies(output))
     return errors
 

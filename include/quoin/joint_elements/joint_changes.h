@@ -73,6 +73,16 @@ namespace quoin
   void count_from_placing(const SpaceJoints &joints,
                           SpaceJointHistory &history);
 
+  /** joint_gaps() of face @p i as results, laws and water count them: from
+      where a stage placed a block beside it, if it did; those of the two faces
+      that met where the joint has become a general contact. */
+  std::array<std::array<double, 2>, 2>
+  gaps_since_placing(const MatchedJoints &joints, unsigned int i,
+                     const State<2> &state);
+  std::array<SpaceJointGap, 3> gaps_since_placing(const SpaceJoints &joints,
+                                                  unsigned int i,
+                                                  const State<3> &state);
+
   /** Face @p i is an intact joint, free of traction where it is now. */
   void begin_joint_anew(const MatchedJoints &joints, unsigned int i,
                         State<2> &state);

@@ -30,9 +30,10 @@ namespace quoin
     AlignedArray<JointState> state;
     /** Whether each face is no joint, because a side of it is not there. */
     AlignedArray<std::uint8_t> detached;
-    /** Slips that points had where a stage placed a block beside them, from
-        which they count, two of each [m]; empty: none did. */
-    AlignedArray<double> placed_slip;
+    /** Slips, two of each, and openings [m] that points had where a stage
+        placed a block beside them, from which they count for laws and results;
+        empty: none did. */
+    AlignedArray<double> placed_slip, placed_opening;
 
     /** For @p n_faces with @p n_internal internal variables. */
     void resize(const std::size_t n_faces, const unsigned int n_internal = 0)
@@ -60,6 +61,7 @@ namespace quoin
       visitor.own(state, 3);
       visitor.own(detached);
       visitor.own(placed_slip, 6);
+      visitor.own(placed_opening, 3);
     }
 
     template <typename Archive>

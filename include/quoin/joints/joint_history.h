@@ -44,7 +44,8 @@ namespace quoin
     /** Whether each segment, two points, has become a general contact. */
     AlignedArray<std::uint8_t> handed_over;
     /** Slip and opening [m] that points had where a stage placed a block beside
-        them, from which they count for laws and water; empty: none did. */
+        them, from which they count for laws, water and results; empty: none
+       did. */
     AlignedArray<double> placed_slip, placed_opening;
 
     /** For @p n points with @p n_internal internal variables. */

@@ -41,7 +41,7 @@ def placed(material):
     settles = column(q) - column(0)
     top = (-(density * G * BLOCK / 2 + PRESSURE) * BLOCK / m - q / STIFFNESS
            + settles)
-    return column(q), top, -column(0) - q / STIFFNESS, -q
+    return column(q), top, -q / STIFFNESS, -q
 
 
 def above_water(material):

@@ -3,8 +3,10 @@
 
 #include "../model/test_models.h"
 
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/operators/archive.h>
 #include <quoin/results/field_output.h>
+#include <quoin/results/point_values.h>
 #include <quoin/results/result_origin.h>
 
 using namespace quoin;
@@ -97,6 +99,52 @@ TEST(ResultOrigin, ABlockThatComesAgainCountsFromTheMesh)
   count_from(blocks.run.model, {}, blocks.state);
   EXPECT_DOUBLE_EQ(blocks.displacement(), 0.25);
   EXPECT_EQ(slip_at_origin(blocks.state, 0), 0.);
+}
+
+TEST(ResultOrigin, JointsOfPlacedBlocksCountFromThere)
+{
+  MovedBlocks blocks;
+  const Model<2> &model = blocks.run.model;
+  State<2> &state       = blocks.state;
+  JointHistory &history = state.get<JointHistory>();
+  for (unsigned int i = 0; i < state.nodes.size(); ++i)
+    if (model.nodes().block_of_node(i) == 1)
+      state.nodes[i].u[1] = 0.125;
+  const double slip = joint_fields(model, state).slip.front();
+  EXPECT_DOUBLE_EQ(std::abs(slip), 0.25);
+  EXPECT_DOUBLE_EQ(joint_fields(model, state).opening.front(), 0.125);
+
+  const unsigned int n = model.joints().segments().size();
+  count_from_placing(model.joints(), history);
+  for (unsigned int i = 0; i < n; ++i)
+    begin_joint_anew(model.joints(), i, state);
+  blocks.move(0.375);
+  HistoryParameters wanted;
+  wanted.quantity = HistoryQuantity::joint;
+  HistoryPoint point;
+  point.here   = true;
+  point.entity = 0;
+  const auto expect
+      = [&](const double slips, const double opening, const double earlier)
+  {
+    const JointFields fields = joint_fields(model, state);
+    EXPECT_DOUBLE_EQ(fields.slip.front(), slips);
+    EXPECT_DOUBLE_EQ(fields.opening.front(), opening);
+    EXPECT_EQ(fields.earlier_slip.empty() ? 0. : fields.earlier_slip.front(),
+              earlier);
+    wanted.component = 0;
+    EXPECT_DOUBLE_EQ(point_value(model, wanted, point, state), opening);
+    wanted.component = 1;
+    EXPECT_DOUBLE_EQ(point_value(model, wanted, point, state), slips + earlier);
+  };
+  expect(0.5 * slip, 0., 0.);
+  // Slips that are reset later count from the placing until then.
+  count_from(model, { false, true, false }, state);
+  blocks.move(0.5);
+  expect(0.5 * slip, 0., 0.5 * slip);
+  // Contacts are between the faces that met, wherever they were placed.
+  std::fill(history.handed_over.begin(), history.handed_over.end(), 1);
+  EXPECT_DOUBLE_EQ(joint_fields(model, state).opening.front(), 0.125);
 }
 
 TEST(ResultOrigin, OnlyJointsThatFailedSinceHaveSlipped)
