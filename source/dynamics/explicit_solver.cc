@@ -9,6 +9,7 @@
 #include <quoin/dynamics/kinetic_energy.h>
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/loading/constraint_checks.h>
+#include <quoin/loading/load_growth.h>
 #include <quoin/loading/loading_rate.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/model/contact_bounds.h>
@@ -340,40 +341,88 @@ namespace quoin
   }
 
   template <int dim>
-  Arrival<dim> ExplicitSolver<dim>::arrival(const StageParameters *previous,
-                                            const double start) const
+  void ExplicitSolver<dim>::begin_arrival(const StageParameters *previous,
+                                          State<dim> &state) const
   {
+    auto &placed = state.template get<LoadGrowth>().placed;
+    for (PlacedGrowth &each : placed)
+    {
+      each.growth         = each.growth.after(state.load_time);
+      const auto has_left = [&](const unsigned int load)
+      { return !names_load(stage, all.nodal[load].name()); };
+      each.loads.erase(
+          std::remove_if(each.loads.begin(), each.loads.end(), has_left),
+          each.loads.end());
+      const auto is_gone
+          = [&](const unsigned int block) { return state.is_absent(block); };
+      each.blocks.erase(
+          std::remove_if(each.blocks.begin(), each.blocks.end(), is_gone),
+          each.blocks.end());
+    }
+    placed.erase(std::remove_if(placed.begin(), placed.end(),
+                                [](const PlacedGrowth &each)
+                                { return each.growth.rest() == 0.; }),
+                 placed.end());
     if (stage.fill.empty() || stage.end != StageEnd::static_ratio)
-      return {};
+      return;
     // Placed blocks have no stress that their weight may balance. Loads that
     // begin in this stage have ramps of their own, and what boundaries that
     // begin take over counts these whole; uplift changes with its crack.
-    std::vector<const NodalLoad<dim> *> loads;
-    double duration = 0.;
-    bool is_heavy   = false;
-    for (const NodalLoad<dim> *load : acting.nodal)
+    PlacedGrowth begun;
+    bool is_heavy = false;
+    for (unsigned int i = 0; i < all.nodal.size(); ++i)
     {
-      if (load->traits().is_gravity)
+      const NodalLoad<dim> &load = all.nodal[i];
+      if (!names_load(stage, load.name()))
+        continue;
+      if (load.traits().is_gravity)
       {
-        duration = std::max(duration, load->ramp_where_begun(quiet_time()));
-        is_heavy = true;
+        begun.growth.duration = std::max(begun.growth.duration,
+                                         load.ramp_where_begun(quiet_time()));
+        is_heavy              = true;
       }
-      if (previous && names_load(*previous, load->name())
-          && !load->traits().follows_crack)
-        loads.push_back(load);
+      if (previous && names_load(*previous, load.name())
+          && !load.traits().follows_crack)
+        begun.loads.push_back(i);
     }
     if (!is_heavy)
-      duration = quiet_time();
+      begun.growth.duration = quiet_time();
+    const BlockTable<dim> &table = model.nodes().table();
+    const auto fills             = find_groups(
+                    table, stage.fill, "section 'Stages/" + stage.name + "', 'Fill'");
+    for (unsigned int b = 0; b < table.n_blocks(); ++b)
+      if (fills[table.group[b]])
+        begun.blocks.push_back(b);
+    placed.push_back(std::move(begun));
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::grow_on_placed(const State<dim> &state,
+                                           const double start)
+  {
     const NodeMap<dim> &nodes = model.nodes();
-    const auto fills
-        = find_groups(nodes.table(), stage.fill,
-                      "section 'Stages/" + stage.name + "', 'Fill'");
-    std::vector<unsigned int> placed;
-    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-      if (fills[nodes.table().group[nodes.block_of_node(i)]])
-        placed.push_back(i);
-    return Arrival<dim>(placed, loads, { 0., start }, nodes.n_local(),
-                        duration);
+    acting.arrival            = {};
+    for (const PlacedGrowth &each : state.template get<LoadGrowth>().placed)
+    {
+      std::vector<const NodalLoad<dim> *> loads;
+      for (const unsigned int load : each.loads)
+        loads.push_back(&all.nodal[load]);
+      std::vector<unsigned int> placed;
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        if (std::binary_search(each.blocks.begin(), each.blocks.end(),
+                               nodes.block_of_node(i)))
+          placed.push_back(i);
+      acting.arrival.add(placed, loads, { 0., start }, nodes.n_local(),
+                         each.growth);
+    }
+    if constexpr (dim == 2)
+      if (all.water)
+      {
+        std::vector<GrowingWater> growing;
+        for (const PlacedGrowth &each : state.template get<LoadGrowth>().placed)
+          growing.push_back({ each.blocks, each.growth });
+        all.water->let_grow(growing);
+      }
   }
 
   template <int dim>
@@ -391,8 +440,9 @@ namespace quoin
     acting.release
         = Release<dim>(state, stage.releases_linearly.value_or(false),
                        release_duration(state));
-    this->ramp_loads(previous, automatic_ramp());
-    acting.arrival = arrival(previous, state.next_load_start());
+    this->begin_growth(previous, automatic_ramp(), state);
+    begin_arrival(previous, state);
+    grow_on_placed(state, state.next_load_start());
     collect_operators(previous);
     for (const auto &constraint : all.constraints)
       if (!all.acts_in(*constraint, stage))
@@ -429,8 +479,8 @@ namespace quoin
     acting.release
         = Release<dim>(state, stage.releases_linearly.value_or(false),
                        release_duration(state));
-    this->ramp_loads(previous, automatic_ramp());
-    acting.arrival = arrival(previous, state.load_start());
+    this->resume_growth(previous, state);
+    grow_on_placed(state, state.load_start());
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->resume_stage(state);
     state = saved;

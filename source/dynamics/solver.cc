@@ -7,6 +7,7 @@
 #include <quoin/model/free_bodies.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loading/constraint_checks.h>
+#include <quoin/loading/load_growth.h>
 #include <quoin/water/joint_flow.h>
 #include <quoin/mesh/global_geometry.h>
 
@@ -101,20 +102,39 @@ namespace quoin
   }
 
   template <int dim>
-  void Solver<dim>::ramp_loads(const StageParameters *previous,
-                               const double automatic)
+  bool Solver<dim>::begins(const std::string &load,
+                           const StageParameters *previous) const
   {
-    const auto begins = [&](const std::string &load)
+    return names_load(stage, load)
+           && !(previous && names_load(*previous, load));
+  }
+
+  template <int dim>
+  void Solver<dim>::begin_growth(const StageParameters *previous,
+                                 const double automatic, State<dim> &state)
+  {
+    LoadGrowth &growth = state.template get<LoadGrowth>();
+    growth.nodal.resize(all.nodal.size());
+    growth.constraints.resize(all.constraints.size());
+    // What was left at the end of the stage before.
+    const auto rest = [&](const std::string &load, const Growth &before) {
+      return names_load(stage, load) ? before.after(state.load_time) : Growth();
+    };
+    const auto begin_load = [&](const std::size_t i, const double duration)
     {
-      return names_load(stage, load)
-             && !(previous && names_load(*previous, load));
+      NodalLoad<dim> &load   = all.nodal[i];
+      const bool begins_here = begins(load.name(), previous);
+      load.begin_stage(begins_here, duration);
+      if (!begins_here)
+        load.go_on_growing(rest(load.name(), growth.nodal[i]));
+      growth.nodal[i] = load.growth();
     };
     double ramp = 0.;
-    for (NodalLoad<dim> &load : all.nodal)
-      if (load.traits().is_gravity)
+    for (std::size_t i = 0; i < all.nodal.size(); ++i)
+      if (all.nodal[i].traits().is_gravity)
       {
-        load.begin_stage(begins(load.name()), automatic);
-        ramp = std::max(ramp, load.ramp());
+        begin_load(i, automatic);
+        ramp = std::max(ramp, growth.nodal[i].rest());
       }
     // Pressure that is in joints before the weight which closes them throws
     // blocks up, and a thrust makes them slip.
@@ -123,12 +143,32 @@ namespace quoin
                   && model.parameters().initial_stresses.empty()
               ? ramp
               : 0.;
-    for (NodalLoad<dim> &load : all.nodal)
-      if (!load.traits().is_gravity)
-        load.begin_stage(begins(load.name()),
-                         load.pressed_joints().exist() ? ramp : with_it);
-    for (MotionConstraint<dim> *constraint : acting.constraints)
-      constraint->grow_forces(begins(constraint->name()) ? with_it : 0.);
+    for (std::size_t i = 0; i < all.nodal.size(); ++i)
+      if (!all.nodal[i].traits().is_gravity)
+        begin_load(i, all.nodal[i].pressed_joints().exist() ? ramp : with_it);
+    for (std::size_t i = 0; i < all.constraints.size(); ++i)
+    {
+      const std::string &load = all.constraints[i]->name();
+      growth.constraints[i]   = begins(load, previous)
+                                    ? Growth{ with_it, 0. }
+                                    : rest(load, growth.constraints[i]);
+      all.constraints[i]->grow_forces(growth.constraints[i]);
+    }
+  }
+
+  template <int dim>
+  void Solver<dim>::resume_growth(const StageParameters *previous,
+                                  const State<dim> &state)
+  {
+    const LoadGrowth &growth = state.template get<LoadGrowth>();
+    for (std::size_t i = 0; i < all.nodal.size(); ++i)
+    {
+      NodalLoad<dim> &load = all.nodal[i];
+      load.begin_stage(begins(load.name(), previous), 0.);
+      load.go_on_growing(growth.nodal[i]);
+    }
+    for (std::size_t i = 0; i < all.constraints.size(); ++i)
+      all.constraints[i]->grow_forces(growth.constraints[i]);
   }
 
   template <int dim>
@@ -152,6 +192,7 @@ namespace quoin
       if (all.beams)
         all.beams->prepare(state);
     state.template add<LoadPatternState>();
+    state.template add<LoadGrowth>();
     if constexpr (dim == 2)
       if (all.water)
         all.water->prepare(state);

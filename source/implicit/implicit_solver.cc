@@ -170,8 +170,8 @@ namespace quoin
                                         State<dim> &state)
   {
     this->activate(new_stage, previous, state);
-    this->ramp_loads(previous, 0.);
     prepare(state);
+    this->begin_growth(previous, 0., state);
     if constexpr (dim == 2)
     {
       if (all.water)
@@ -210,7 +210,7 @@ namespace quoin
       if (all.beams)
         all.beams->resume_stage(state);
     }
-    this->ramp_loads(previous, 0.);
+    this->resume_growth(previous, state);
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->set_mass(model.mass());
     if (state.template get<ImplicitState>().jumps)

@@ -2,43 +2,61 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/loading/arrival.h>
-#include <quoin/signals/time_function.h>
+
+#include <algorithm>
 
 namespace quoin
 {
   template <int dim>
-  Arrival<dim>::Arrival(const std::vector<unsigned int> &placed,
-                        const std::vector<const NodalLoad<dim> *> &loads,
-                        const TimePoint &start, const std::size_t n_local,
-                        const double duration)
-    : ramp_duration(duration)
+  void Arrival<dim>::add(const std::vector<unsigned int> &placed,
+                         const std::vector<const NodalLoad<dim> *> &loads,
+                         const TimePoint &start, const std::size_t n_local,
+                         const Growth &growth)
   {
     AlignedArray<dealii::Tensor<1, dim>> all(n_local, dealii::Tensor<1, dim>());
     for (const NodalLoad<dim> *load : loads)
       load->add_loads(start, all.data());
+    Part part;
+    part.growth = growth;
     for (const unsigned int node : placed)
       if (all[node] != dealii::Tensor<1, dim>())
       {
-        nodes.push_back(node);
-        forces.push_back(all[node]);
+        part.nodes.push_back(node);
+        part.forces.push_back(all[node]);
       }
+    parts.push_back(std::move(part));
   }
 
   template <int dim>
-  double Arrival<dim>::share(const double load_time) const
+  double Arrival<dim>::rest() const
   {
-    return half_cosine(load_time, ramp_duration);
+    double last = 0.;
+    for (const Part &part : parts)
+      last = std::max(last, part.growth.rest());
+    return last;
+  }
+
+  template <int dim>
+  bool Arrival<dim>::differ(const double one, const double other) const
+  {
+    return std::any_of(
+        parts.begin(), parts.end(),
+        [&](const Part &part)
+        { return part.growth.share(one) != part.growth.share(other); });
   }
 
   template <int dim>
   void Arrival<dim>::add_loads(const TimePoint &time,
                                dealii::Tensor<1, dim> *force) const
   {
-    const double lacking = 1. - share(time.stage);
-    if (lacking == 0.)
-      return;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      force[nodes[i]] -= lacking * forces[i];
+    for (const Part &part : parts)
+    {
+      const double lacking = 1. - part.growth.share(time.stage);
+      if (lacking == 0.)
+        continue;
+      for (std::size_t i = 0; i < part.nodes.size(); ++i)
+        force[part.nodes[i]] -= lacking * part.forces[i];
+    }
   }
 
   template <int dim>
@@ -46,13 +64,18 @@ namespace quoin
   Arrival<dim>::external_power(const TimePoint &time,
                                const dealii::Tensor<1, dim> *velocity) const
   {
-    const double lacking = 1. - share(time.stage);
-    if (lacking == 0.)
-      return 0.;
-    double power = 0.;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      power += forces[i] * velocity[nodes[i]];
-    return -lacking * power;
+    double result = 0.;
+    for (const Part &part : parts)
+    {
+      const double lacking = 1. - part.growth.share(time.stage);
+      if (lacking == 0.)
+        continue;
+      double power = 0.;
+      for (std::size_t i = 0; i < part.nodes.size(); ++i)
+        power += part.forces[i] * velocity[part.nodes[i]];
+      result -= lacking * power;
+    }
+    return result;
   }
 
   template class Arrival<2>;

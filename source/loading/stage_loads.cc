@@ -77,7 +77,7 @@ namespace quoin
     if (present != values(state.load_start(), before))
       return true;
     if ((release.changes() && release.share(before) != release.share(now))
-        || arrival.share(before) != arrival.share(now))
+        || arrival.differ(before, now))
       return true;
     for (double t = late_time; t > std::max(now, earliest); t *= 0.9)
       if (present != values(state.load_start(), t))
@@ -88,10 +88,10 @@ namespace quoin
   template <int dim>
   double StageLoads<dim>::growth() const
   {
-    double last = std::max(release.changes() ? release.duration() : 0.,
-                           arrival.duration());
+    double last
+        = std::max(release.changes() ? release.duration() : 0., arrival.rest());
     for (const NodalLoad<dim> *load : nodal)
-      last = std::max(last, load->ramp());
+      last = std::max(last, load->growth().rest());
     return last;
   }
 

@@ -406,7 +406,7 @@ namespace quoin
       for (const double centre : shape->at(time))
         place = 0.5 * place + centre;
     const auto [x, y, z] = component_values(components, time);
-    const double share   = half_cosine(time.stage, ramp_duration);
+    const double share   = own_growth.share(time.stage);
     return { share * x, share * y, share * z,
              pressure.quantity == LoadQuantity::free
                  ? 0.
@@ -453,7 +453,7 @@ namespace quoin
         part   = forces_of_share(time);
         forces = &part;
       }
-      const double share = half_cosine(time.stage, ramp_duration);
+      const double share = own_growth.share(time.stage);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           force[nodes[i]][d] += share * (*forces)[i][d];
@@ -484,7 +484,7 @@ namespace quoin
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           power += forces[i][d] * velocity[nodes[i]][d];
-      return half_cosine(time.stage, ramp_duration) * power;
+      return own_growth.share(time.stage) * power;
     }
     const dealii::Tensor<1, dim> sum = by_nodes(
         [&](const auto &node)
@@ -516,7 +516,7 @@ namespace quoin
   bool NodalLoad<dim>::has_same_power(const TimePoint &one,
                                       const TimePoint &other) const
   {
-    return !field && std::min(one.stage, other.stage) >= ramp_duration
+    return !field && std::min(one.stage, other.stage) >= own_growth.rest()
            && pressure.value.is_constant()
            && std::all_of(components.begin(), components.end(),
                           [](const LoadComponent &component)

@@ -302,19 +302,56 @@ namespace quoin
       force[node] += part;
   }
 
-  void JointFlow::find_forces()
+  void JointFlow::Forces::set(
+      const std::map<unsigned int, dealii::Tensor<1, 2>> &sum)
   {
-    std::map<unsigned int, dealii::Tensor<1, 2>> sum;
-    for (unsigned int c = 0; now.acts && c < places.faces.size(); ++c)
-      if (flow_network.channels()[c].is_open)
-        add_forces_in(c, now, sum);
-    force_nodes.clear();
-    forces.clear();
+    nodes.clear();
+    values.clear();
     for (const auto &[node, force] : sum)
     {
-      force_nodes.push_back(node);
-      forces.push_back(force);
+      nodes.push_back(node);
+      values.push_back(force);
     }
+  }
+
+  void JointFlow::find_forces()
+  {
+    const auto find = [&](const auto &is_wanted, Forces &result)
+    {
+      std::map<unsigned int, dealii::Tensor<1, 2>> sum;
+      for (unsigned int c = 0; now.acts && c < places.faces.size(); ++c)
+        if (flow_network.channels()[c].is_open && is_wanted(c))
+          add_forces_in(c, now, sum);
+      result.set(sum);
+    };
+    find([](unsigned int) { return true; }, forces);
+    for (GrowingForces &part : growing)
+      find([&](const unsigned int c) { return part.has[c] != 0; }, part.forces);
+  }
+
+  void JointFlow::let_grow(const std::vector<GrowingWater> &parts)
+  {
+    growing.clear();
+    for (const GrowingWater &part : parts)
+      growing.push_back(
+          { part, std::vector<std::uint8_t>(places.faces.size(), 0), {} });
+    for (unsigned int c = 0; c < places.faces.size(); ++c)
+    {
+      const auto lies_at = [&](const GrowingForces &part)
+      {
+        return std::any_of(
+            places.faces[c].blocks.begin(), places.faces[c].blocks.end(),
+            [&](const unsigned int block)
+            {
+              return std::binary_search(part.given.blocks.begin(),
+                                        part.given.blocks.end(), block);
+            });
+      };
+      const auto last = std::find_if(growing.rbegin(), growing.rend(), lies_at);
+      if (last != growing.rend())
+        last->has[c] = 1;
+    }
+    find_forces();
   }
 
   void JointFlow::begin_stage(const std::string &name, State<2> &state)
@@ -420,20 +457,33 @@ namespace quoin
     water = now;
   }
 
-  void JointFlow::add_loads(const TimePoint &,
+  void JointFlow::add_loads(const TimePoint &time,
                             dealii::Tensor<1, 2> *force) const
   {
-    for (unsigned int i = 0; i < forces.size(); ++i)
-      force[force_nodes[i]] += forces[i];
+    const auto add = [&](const Forces &part, const double share)
+    {
+      for (unsigned int i = 0; share != 0. && i < part.nodes.size(); ++i)
+        force[part.nodes[i]] += share * part.values[i];
+    };
+    add(forces, 1.);
+    for (const GrowingForces &part : growing)
+      add(part.forces, part.given.growth.share(time.stage) - 1.);
   }
 
-  double JointFlow::external_power(const TimePoint &,
+  double JointFlow::external_power(const TimePoint &time,
                                    const dealii::Tensor<1, 2> *velocity) const
   {
-    double power = 0.;
-    for (unsigned int i = 0; i < forces.size(); ++i)
-      power += forces[i] * velocity[force_nodes[i]];
-    return power;
+    const auto power = [&](const Forces &part)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < part.nodes.size(); ++i)
+        sum += part.values[i] * velocity[part.nodes[i]];
+      return sum;
+    };
+    double result = power(forces);
+    for (const GrowingForces &part : growing)
+      result += (part.given.growth.share(time.stage) - 1.) * power(part.forces);
+    return result;
   }
 
   std::vector<NodeStiffness<2>> JointFlow::stiffness_bound() const
@@ -504,11 +554,9 @@ namespace quoin
       return Followed::changed;
     }
     // Forces stay those of the equilibrium.
-    const auto kept_forces = forces;
-    const auto kept_nodes  = force_nodes;
+    const Forces kept = forces;
     take(solution, end.total, dt, before);
-    forces      = kept_forces;
-    force_nodes = kept_nodes;
+    forces = kept;
     return Followed::balanced;
   }
 } // namespace quoin

@@ -174,10 +174,15 @@ namespace quoin
     double automatic_ramp() const;
     /** Duration of the release of held forces in this stage [s]. */
     double release_duration(const State<dim> &state) const;
-    /** What lets the loads of the stage before grow on placed blocks, in a
-        stage that ends at rest and begins at @p start by the clock of loads
-        [s]. */
-    Arrival<dim> arrival(const StageParameters *previous, double start) const;
+    /** Lets the loads of the stage before grow on blocks that are placed, in a
+        stage that ends at rest, and those go on that still grew at the end of
+        the stage before, whose clock @p state has. */
+    void begin_arrival(const StageParameters *previous,
+                       State<dim> &state) const;
+    /** Lets loads and the forces of water in joints grow on placed blocks in
+       the stage of @p state, which begins at @p start by the clock of loads
+       [s]. */
+    void grow_on_placed(const State<dim> &state, double start);
     /** Blocks of this rank that loads of this or a later stage move. */
     void find_moved_blocks(const State<dim> &state);
     /** Tells joints and contacts what their dashpots need of the blocks and of

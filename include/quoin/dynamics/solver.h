@@ -153,8 +153,13 @@ namespace quoin
         null, does not grow over @p automatic [s], unless its parameters say
         otherwise, and with it pressures in joints and, in a stage that ends at
         rest, all other forces that begin, unless there is initial stress; loads
-        of a pattern are there at once. */
-    void ramp_loads(const StageParameters *previous, double automatic);
+        of a pattern are there at once. Those that still grew at the end of the
+        stage before, whose clock @p state has, go on to do so. */
+    void begin_growth(const StageParameters *previous, double automatic,
+                      State<dim> &state);
+    /** Lets loads grow as in the stage of @p state. */
+    void resume_growth(const StageParameters *previous,
+                       const State<dim> &state);
     /** Begins the load pattern, if the stage has one, once the stage has
         begun; it goes on with the factor of @p previous if that has the same
         loads in its pattern. Collective. */
@@ -174,6 +179,8 @@ namespace quoin
     PhaseClock time_shares;
 
   private:
+    /** Whether the stage names @p load, but not @p previous or null. */
+    bool begins(const std::string &load, const StageParameters *previous) const;
     /** Adds up @p energies of all ranks. */
     void sum_accounts(EnergyAccounts &energies) const;
 

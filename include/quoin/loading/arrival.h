@@ -16,7 +16,8 @@ namespace quoin
    * What lets the loads on blocks that a stage places grow from zero by half a
    * cosine s(t) of load time, as gravity that begins there does: beside these
    * loads act the forces (s - 1) F, F being those of the loads that go on from
-   * the stage before, where the stage begins.
+   * the stage before, where the stage begins. A stage that ends before they
+   * are there leaves the rest of the growth to the next one.
    */
   template <int dim>
   class Arrival : public ForceOperator<dim>
@@ -24,19 +25,18 @@ namespace quoin
   public:
     Arrival() = default;
 
-    /** @p loads on the owned nodes @p placed at the time @p start of the stage;
-        @p n_local: number of local nodes; @p duration: of their growth [s]. */
-    Arrival(const std::vector<unsigned int> &placed,
-            const std::vector<const NodalLoad<dim> *> &loads,
-            const TimePoint &start, std::size_t n_local, double duration);
+    /** Lets @p loads on the owned nodes @p placed, with the forces that they
+        have at the time @p start of the stage, grow as @p growth says;
+        @p n_local: number of local nodes. */
+    void add(const std::vector<unsigned int> &placed,
+             const std::vector<const NodalLoad<dim> *> &loads,
+             const TimePoint &start, std::size_t n_local, const Growth &growth);
 
-    /** Duration of the growth [s]; 0: nothing grows. */
-    double duration() const
-    {
-      return ramp_duration;
-    }
-    /** s(@p load_time) [-]. */
-    double share(double load_time) const;
+    /** How long the growth takes from the start of the stage on [s]; 0: nothing
+        grows. */
+    double rest() const;
+    /** Whether the forces are others at two load times of the stage [s]. */
+    bool differ(double one, double other) const;
 
     const char *kind() const override
     {
@@ -49,9 +49,14 @@ namespace quoin
                    const dealii::Tensor<1, dim> *velocity) const override;
 
   private:
-    std::vector<unsigned int> nodes;            /**< of this rank */
-    std::vector<dealii::Tensor<1, dim>> forces; /**< F of each of them [N] */
-    double ramp_duration = 0.;
+    /** Forces of one growth. */
+    struct Part
+    {
+      std::vector<unsigned int> nodes;            /**< of this rank */
+      std::vector<dealii::Tensor<1, dim>> forces; /**< F of each of them [N] */
+      Growth growth;
+    };
+    std::vector<Part> parts;
   };
 } // namespace quoin
 

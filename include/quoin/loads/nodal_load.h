@@ -77,17 +77,23 @@ namespace quoin
         duration that is given or @p automatic [s]; 0: it is there at once. */
     void begin_stage(const bool begins, const double automatic)
     {
-      ramp_duration = begins ? ramp_where_begun(automatic) : 0.;
-      begins_here   = begins;
+      own_growth  = { begins ? ramp_where_begun(automatic) : 0., 0. };
+      begins_here = begins;
+    }
+    /** Lets it grow as @p growth says, where the growth goes on from the stage
+        before. */
+    void go_on_growing(const Growth &growth)
+    {
+      own_growth = growth;
     }
     /** That duration where the load begins [s]. */
     double ramp_where_begun(const double automatic) const
     {
       return given_ramp >= 0. ? given_ramp : automatic;
     }
-    double ramp() const
+    const Growth &growth() const
     {
-      return ramp_duration;
+      return own_growth;
     }
     const NodalLoadTraits &traits() const
     {
@@ -169,7 +175,7 @@ namespace quoin
     std::vector<double> weights;
     PressedJoints own_joints;
     double given_ramp; /**< -1: automatic [s] */
-    double ramp_duration = 0.;
+    Growth own_growth;
     std::vector<dealii::Tensor<1, dim>>
         inward; /**< n_i [m^2]; empty without pressure */
   };

@@ -193,9 +193,8 @@ namespace quoin
     {
     }
 
-    /** Forces that it has as functions of time grow by half a cosine over
-        @p duration [s] from the start of the stage on; 0: they are there. */
-    virtual void grow_forces(const double /*duration*/)
+    /** Lets forces that it has as functions of time grow in the stage. */
+    virtual void grow_forces(const Growth & /*growth*/)
     {
     }
 

@@ -66,13 +66,13 @@ namespace quoin
                   double extra_spin = 0.) override;
     void rest(State<3> &state) override;
     void begin_stage(State<3> &state, bool continues) override;
-    void grow_forces(const double duration) override
+    void grow_forces(const Growth &growth) override
     {
-      force_ramp = duration;
+      force_growth = growth;
     }
     double force_share(const double load_time) const override
     {
-      return half_cosine(load_time, force_ramp);
+      return force_growth.share(load_time);
     }
     void resume_stage(const State<3> &state) override;
     void correct(const StepContext &step,
@@ -131,7 +131,8 @@ namespace quoin
     /** Forces and moments on the platen in the last step by its drive and
         damping, and the velocity before it. */
     Six drive{}, damping{}, velocity_before{};
-    double last_unbalanced = 0., force_ramp = 0.;
+    double last_unbalanced = 0.;
+    Growth force_growth;
   };
 
   /** A platen of a model. */

@@ -4,6 +4,7 @@
 #ifndef quoin_signals_time_function_h
 #define quoin_signals_time_function_h
 
+#include <quoin/base/archive_members.h>
 #include <quoin/signals/signal.h>
 #include <quoin/operators/step_context.h>
 
@@ -19,6 +20,43 @@ namespace quoin
   /** Half a cosine from 0 at @p time 0 to 1 at @p duration [s], and 1 beyond; 1
       without duration. */
   double half_cosine(double time, double duration);
+
+  /** Growth of a load by half a cosine, of which a part may have passed in the
+      stages before. */
+  struct Growth
+  {
+    double duration = 0.; /**< of all of it [s]; 0: the load is there */
+    double passed   = 0.; /**< before the stage [s] */
+
+    /** Share of the load at the time @p load_time of the stage [-]. */
+    double share(const double load_time) const
+    {
+      return half_cosine(passed + load_time, duration);
+    }
+    /** How long it takes from the start of the stage on [s]. */
+    double rest() const
+    {
+      return passed < duration ? duration - passed : 0.;
+    }
+    /** The same growth from @p load_time of the stage on [s]. */
+    Growth after(const double load_time) const
+    {
+      const Growth later{ duration, passed + load_time };
+      return later.rest() > 0. ? later : Growth();
+    }
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(duration, passed);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
 
   /**
    * A value that depends on time alone: an expression of t (time in the

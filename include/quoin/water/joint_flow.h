@@ -57,6 +57,13 @@ namespace quoin
     }
   };
 
+  /** Growth of the forces of water in joints at blocks that are placed. */
+  struct GrowingWater
+  {
+    std::vector<unsigned int> blocks; /**< of the mesh, ascending */
+    Growth growth;
+  };
+
   /** Volumes of water since the start of the run [m^3]. */
   struct FlowVolumes
   {
@@ -101,6 +108,9 @@ namespace quoin
     /** Begins stage @p name, with steady flow at once if that is wanted.
         Collective. */
     void begin_stage(const std::string &name, State<2> &state);
+    /** Lets the forces of the water in joints at the blocks of @p parts grow in
+        the stage that has begun; of several parts the last one counts. */
+    void let_grow(const std::vector<GrowingWater> &parts);
     /** Continues it with the water of @p state. Collective. */
     void resume_stage(const State<2> &state);
     /** Volumes of @p state until @p time by the clock of loads, not before the
@@ -193,8 +203,23 @@ namespace quoin
     AlignedArray<double> placed_opening; /**< see JointHistory [m] */
 
     JointFlowState now, before;
-    std::vector<unsigned int> force_nodes;    /**< local, owned */
-    std::vector<dealii::Tensor<1, 2>> forces; /**< [N] */
+    /** Forces on nodes. */
+    struct Forces
+    {
+      std::vector<unsigned int> nodes;          /**< local, owned */
+      std::vector<dealii::Tensor<1, 2>> values; /**< [N] */
+
+      void set(const std::map<unsigned int, dealii::Tensor<1, 2>> &sum);
+    };
+    Forces forces; /**< of all water that is there */
+    /** What grows in the stage, a part of these. */
+    struct GrowingForces
+    {
+      GrowingWater given;
+      std::vector<std::uint8_t> has; /**< channels */
+      Forces forces;
+    };
+    std::vector<GrowingForces> growing;
     FixedPointAcceleration acceleration;
     unsigned int n_iterations = 0;
   };

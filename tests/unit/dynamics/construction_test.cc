@@ -9,6 +9,7 @@
 #include <quoin/dynamics/construction.h>
 #include <quoin/dynamics/initial_energy.h>
 #include <quoin/model/block_placement.h>
+#include <quoin/water/joint_flow.h>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -254,6 +255,156 @@ TEST(Construction, WeightOfPlacedBlocksComesQuietly)
     else
       EXPECT_LT(overshoot, 0.05);
   }
+}
+
+namespace
+{
+  /** What @p run lets act vertically on the block @p block at the load time
+      @p time of its stage [N]. */
+  template <typename Run>
+  double weight_of(const Run &run, const unsigned int block, const double time)
+  {
+    AlignedArray<dealii::Tensor<1, 2>> force(run.state.nodes.size(),
+                                             dealii::Tensor<1, 2>());
+    const TimePoint now{ time, run.state.load_start() + time };
+    const StageLoads<2> &loads = run.solver.stage_loads();
+    for (const NodalLoad<2> *load : loads.nodal)
+      load->add_loads(now, force.data());
+    loads.arrival.add_loads(now, force.data());
+    if (loads.water)
+      loads.water->add_loads(now, force.data());
+    const NodeRange nodes = block_nodes(run.model, block);
+    double sum            = 0.;
+    for (std::size_t i = nodes.begin; i < nodes.end; ++i)
+      sum += force[i][1];
+    return sum;
+  }
+} // namespace
+
+TEST(Construction, LoadsGoOnGrowingAfterAStageThatEndsEarly)
+{
+  // Gravity that begins, and weight on a block that is placed.
+  for (const bool is_placed : { false, true })
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 1, 8);
+    TestRun run(mesh, without_stress(),
+                { gravity("0", "-10"), motion("base", "bottom", "0", "0"),
+                  motion("rollers", "sides", "0", "") });
+    std::vector<StageParameters> stages
+        = { stage_of({ "upper" }, {}), stage_of({}, { "upper" }),
+            stage_of({}, {}), stage_of({}, {}) };
+    if (!is_placed)
+      stages[0].excavate = stages[1].fill = {};
+    for (StageParameters &stage : stages)
+    {
+      stage.loads = { "gravity", "base", "rollers" };
+      stage.end   = StageEnd::static_ratio;
+    }
+    stages[3].end = StageEnd::time;
+    Construction construction(run.model, stages);
+    construction.begin_stage(0, run.solver, run.state);
+    if (is_placed)
+      construction.begin_stage(1, run.solver, run.state);
+    run.begin(stages[1], 0.8, is_placed ? &stages[0] : nullptr);
+    const double quiet = run.solver.quiet_time(),
+                 full  = -10. * 2500. * 8. * 0.5;
+    EXPECT_NEAR(weight_of(run, 1, 0.), 0., 1e-9 * std::abs(full));
+    for (unsigned int i = 2; i < 4; ++i)
+    {
+      while (run.state.load_time < 0.3 * quiet)
+        run.solver.step(run.state, {});
+      const double share  = half_cosine((i - 1) * 0.3 * quiet, quiet);
+      const double before = weight_of(run, 1, run.state.load_time);
+      EXPECT_NEAR(before, share * full, 1e-2 * std::abs(full));
+      construction.begin_stage(i, run.solver, run.state);
+      run.begin(stages[i], 0.8, &stages[i - 1]);
+      EXPECT_NEAR(weight_of(run, 1, 0.), before, 1e-9 * std::abs(full));
+      run.solver.resume_stage(stages[i], &stages[i - 1], run.state);
+      EXPECT_NEAR(weight_of(run, 1, 0.), before, 1e-9 * std::abs(full));
+    }
+    EXPECT_LT(run.solver.stage_loads().growth(), 0.5 * quiet);
+    EXPECT_NEAR(weight_of(run, 1, 0.5 * quiet), full, 1e-9 * std::abs(full));
+  }
+}
+
+TEST(Construction, LoadsInEquilibriumGoOnGrowingInTheNextStage)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 2);
+  LoadParameters weight = gravity("0", "-10");
+  weight.ramp_duration  = 2.5;
+  ImplicitRun run(mesh, without_stress(),
+                  { weight, motion("base", "bottom", "0", "0"),
+                    motion("rollers", "sides", "0", "") });
+  const StageParameters stage = stage_with({ "gravity", "base", "rollers" });
+  const double full           = -10. * 2500. * 2. * 0.5;
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    run.begin(stage.loads, i == 0 ? nullptr : &stage);
+    EXPECT_TRUE(run.state.get<ImplicitState>().held.empty());
+    run.finish();
+    EXPECT_NEAR(weight_of(run, 1, 1.), half_cosine(i + 1., 2.5) * full,
+                1e-9 * std::abs(full));
+  }
+}
+
+TEST(Construction, WaterAtPlacedBlocksGrowsAsTheirWeight)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 8);
+  TestRun run(mesh, without_stress(),
+              { gravity("0", "-10"), motion("base", "bottom", "0", "0"),
+                motion("rollers", "sides", "0", "") });
+  WaterParameters given;
+  given.flow = FlowKind::steady;
+  HydraulicAperture aperture;
+  aperture.name = "joint";
+  given.joints  = { aperture };
+  WaterBoundary source;
+  source.name      = "source";
+  source.curves    = { "joint" };
+  source.value     = TimeFunction("1e5", "./");
+  given.boundaries = { source };
+  JointFlow water(given, run.nodes, run.model.joints(),
+                  run.model.parameters().joints, run.model.thickness());
+  run.solver.loads().water = &water;
+  std::vector<StageParameters> stages
+      = { stage_of({ "upper" }, {}), stage_of({}, { "upper" }),
+          stage_of({}, {}) };
+  for (StageParameters &stage : stages)
+  {
+    stage.loads = { "gravity", "base", "rollers" };
+    stage.end   = StageEnd::static_ratio;
+  }
+  Construction construction(run.model, stages);
+  run.solver.prepare(run.state);
+  construction.begin_stage(0, run.solver, run.state);
+  run.begin(stages[0]);
+  construction.begin_stage(1, run.solver, run.state);
+  run.begin(stages[1], 0.8, &stages[0]);
+  const double quiet = run.solver.quiet_time();
+  const double lift = 1e5 * 2. * 0.5, full = lift - 10. * 2500. * 16. * 0.5;
+  const auto at
+      = [&](const double share) { return weight_of(run, 1, share * quiet); };
+  EXPECT_NEAR(at(0.), 0., 1e-9 * lift);
+  EXPECT_NEAR(at(0.5), 0.5 * full, 1e-9 * lift);
+  EXPECT_NEAR(at(1.), full, 1e-9 * lift);
+  // So does what it bears on the block below, and its work.
+  AlignedArray<dealii::Tensor<1, 2>> force(run.state.nodes.size(),
+                                           dealii::Tensor<1, 2>()),
+      velocity = force;
+  const TimePoint half{ 0.5 * quiet, 0.5 * quiet };
+  water.add_loads(half, force.data());
+  const NodeRange lower = block_nodes(run.model, 0);
+  double sum            = 0.;
+  for (std::size_t i = lower.begin; i < lower.end; ++i)
+  {
+    sum += force[i][1];
+    velocity[i][1] = 2.;
+  }
+  EXPECT_NEAR(sum, -0.5 * lift, 1e-9 * lift);
+  EXPECT_NEAR(water.external_power(half, velocity.data()), -lift, 1e-9 * lift);
 }
 
 namespace
