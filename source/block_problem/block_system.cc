@@ -276,8 +276,14 @@ namespace quoin
         power = model->reinforcement().end_stage(state);
       construction->begin_stage(index, *solver, state);
       if constexpr (dim == 2)
-        model->reinforcement().begin_stage(stage.name, index == 0, power,
-                                           state);
+        if (!model->reinforcement().empty())
+        {
+          AlignedArray<dealii::Tensor<1, dim>> released(
+              state.nodes.size(), dealii::Tensor<1, dim>());
+          model->reinforcement().begin_stage(stage.name, index == 0, power,
+                                             state, released.data());
+          construction->hold(index, released, state);
+        }
       if (implicit_solver)
         implicit_solver->begin_stage(stage, previous, state);
       if (explicit_solver)

@@ -136,6 +136,21 @@ namespace quoin
   }
 
   template <int dim>
+  void
+  Construction<dim>::hold(const unsigned int stage,
+                          const AlignedArray<dealii::Tensor<1, dim>> &force,
+                          State<dim> &state) const
+  {
+    if (!steps[stage].takes)
+      return;
+    std::vector<double> &held
+        = state.template get<ConstructionState<dim>>().held.back().force;
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        held[dim * i + d] += force[i][d];
+  }
+
+  template <int dim>
   double Construction<dim>::stored_energy(const State<dim> &state) const
   {
     return quoin::stored_energy(state, model.blocks(), model.joints());

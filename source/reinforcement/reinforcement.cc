@@ -32,11 +32,13 @@ namespace quoin
     }
 
     /** Takes a bar out of blocks that are absent: all of it where its far end
-        is. */
-    void lose_absent(const PlacedBar &bar, const State<2> &state, BarState &now)
+        is. Returns whether it loses anything that it still had. */
+    bool lose_absent(const PlacedBar &bar, const State<2> &state, BarState &now)
     {
       const std::size_t last = bar.hosts.size() - 1;
       const bool is_gone     = state.is_absent(bar.hosts[last].block);
+      const auto lost        = now.lost;
+      const auto dowels      = now.dowel_broken;
       for (std::size_t i = 0; i <= last; ++i)
         if (is_gone || state.is_absent(bar.hosts[i].block))
         {
@@ -50,6 +52,7 @@ namespace quoin
         if (is_gone || state.is_absent(bar.dowels[d].near.block)
             || state.is_absent(bar.dowels[d].far.block))
           now.dowel_broken[d] = 1;
+      return now.lost != lost || now.dowel_broken != dowels;
     }
 
     /** Refuses the pretension of @p bar of the set @p cable in @p stage. */
@@ -124,8 +127,8 @@ namespace quoin
   }
 
   void Reinforcement::begin_stage(const std::string &name, const bool first,
-                                  const double power_before,
-                                  State<2> &state) const
+                                  const double power_before, State<2> &state,
+                                  dealii::Tensor<1, 2> *released) const
   {
     if (bars.empty())
       return;
@@ -140,8 +143,13 @@ namespace quoin
       const bool is_new
           = !now.installed
             && (given.stage.empty() ? first : given.stage == name);
-      if (is_new || now.installed)
-        lose_absent(bar, state, now);
+      const BarState before = now;
+      if ((is_new || now.installed) && lose_absent(bar, state, now) && released
+          && now.installed)
+      {
+        add_forces_on_present(bar, before, state, 1., released);
+        add_forces_on_present(bar, now, state, -1., released);
+      }
       if (!is_new)
         continue;
       now.installed = 1;
@@ -174,6 +182,19 @@ namespace quoin
     // The forces of now belong to the half step before, too.
     state.energy.external
         += 0.5 * state.previous_time_step * (power(state) - power_before);
+  }
+
+  void Reinforcement::add_forces_on_present(const PlacedBar &bar, BarState now,
+                                            const State<2> &state,
+                                            const double factor,
+                                            dealii::Tensor<1, 2> *force) const
+  {
+    update_bar(bar, state.nodes.data(), now, false, false);
+    for (unsigned int i = 0; i < bar.nodes.size(); ++i)
+      if (const unsigned int node = bar.nodes[i];
+          node < node_map->n_owned()
+          && !state.is_absent(node_map->block_of_node(node)))
+        force[node] += factor * vector_at(work.force, i);
   }
 
   double Reinforcement::power(const State<2> &state) const

@@ -27,9 +27,9 @@ namespace quoin
    *
    * Excavated blocks stay in the arrays: State::block_marks says that they are
    * absent, their nodes are held, their joints are deactivated. The forces that
-   * they exerted on the others go to ConstructionState::held, which Release
-   * ramps down. Their energy is booked as external work, as is what a change of
-   * stiffness adds.
+   * they exerted on the others, through bars as well, go to
+   * ConstructionState::held, which Release ramps down. Their energy is booked
+   * as external work, as is what a change of stiffness adds.
    */
   template <int dim>
   class Construction
@@ -47,6 +47,13 @@ namespace quoin
      */
     void begin_stage(unsigned int stage, Solver<dim> &solver,
                      State<dim> &state);
+
+    /** Adds @p force on local nodes, of what else than joints and water lost
+       its hold in the blocks that stage @p stage has excavated, to the forces
+       that are released [N]. */
+    void hold(unsigned int stage,
+              const AlignedArray<dealii::Tensor<1, dim>> &force,
+              State<dim> &state) const;
 
     /** Called instead when @p state is one within stage @p stage. */
     void resume_stage(unsigned int stage, const State<dim> &state);

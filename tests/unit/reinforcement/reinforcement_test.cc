@@ -112,6 +112,50 @@ TEST(Reinforcement, ForcesHaveNoResultant)
   EXPECT_NEAR(sum[2], 0., 2e-3 * size);
 }
 
+TEST(Reinforcement, WhatBarsLoseWithABlockIsReleased)
+{
+  // Of the block with the head, and of that with the far end.
+  for (const unsigned int gone : { 1U, 0U })
+  {
+    BarInBlocks bar;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> change(-1e-4, 1e-4);
+    for (NodeRecord<2> &node : bar.state.nodes)
+      for (double &u : dealii::make_array_view(node.u))
+        u += change(random);
+    const auto before = bar.forces(bar.state);
+    bar.state.block_marks.resize(2, block_mark::present);
+    bar.state.block_marks[gone] = block_mark::absent;
+    AlignedArray<dealii::Tensor<1, 2>> released(bar.state.nodes.size(),
+                                                dealii::Tensor<1, 2>());
+    const auto begin = [&]()
+    {
+      bar.model->reinforcement().begin_stage("second", false, 0., bar.state,
+                                             released.data());
+    };
+    begin();
+    const auto after = bar.forces(bar.state);
+    double size = 0., change_there = 0.;
+    for (unsigned int i = 0; i < bar.state.nodes.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const bool is_there = bar.nodes->block_of_node(i) != gone;
+        size += std::abs(before[2 * i + d]);
+        change_there += is_there ? std::abs(released[i][d]) : 0.;
+        EXPECT_NEAR(released[i][d],
+                    is_there ? before[2 * i + d] - after[2 * i + d] : 0.,
+                    1e-9 * 1e5);
+      }
+    EXPECT_GT(change_there, 0.05 * size);
+    // What is lost is so once.
+    released = AlignedArray<dealii::Tensor<1, 2>>(bar.state.nodes.size(),
+                                                  dealii::Tensor<1, 2>());
+    begin();
+    for (const dealii::Tensor<1, 2> &force : released)
+      EXPECT_EQ(force.norm(), 0.);
+  }
+}
+
 TEST(Reinforcement, StiffnessIsTheDerivative)
 {
   BarInBlocks bar;
