@@ -480,24 +480,28 @@ namespace quoin
   }
 
   template <int dim>
+  bool Histories<dim>::is_at_absent(const Probe &probe,
+                                    const State<dim> &state) const
+  {
+    if (state.block_marks.empty())
+      return false;
+    const auto blocks = blocks_at(model, probe.parameters, probe.at);
+    bool result       = std::any_of(blocks.begin(), blocks.end(),
+                                    [&](const unsigned int block)
+                                    { return state.is_absent(block); });
+    if (probe.ends > 0)
+      for (unsigned int end = 0; end < 2 * dim; ++end)
+        result = result || is_at_absent(probes[probe.ends + end], state);
+    return result;
+  }
+
+  template <int dim>
   std::vector<unsigned int>
   Histories<dim>::about_absent(const State<dim> &state) const
   {
     std::vector<unsigned int> result(n_columns, 0);
-    const auto is_at_absent = [&](const Probe &probe)
-    {
-      const auto blocks = blocks_at(model, probe.parameters, probe.at);
-      return std::any_of(blocks.begin(), blocks.end(),
-                         [&](const unsigned int block)
-                         { return state.is_absent(block); });
-    };
     for (unsigned int i = 0; i < n_columns; ++i)
-    {
-      result[i] = is_at_absent(probes[i]);
-      if (probes[i].ends > 0)
-        for (unsigned int end = 0; end < 2 * dim; ++end)
-          result[i] = result[i] || is_at_absent(probes[probes[i].ends + end]);
-    }
+      result[i] = is_at_absent(probes[i], state);
     unsigned int next = 0; // column of of_blocks
     for (unsigned int i = 0; i < n_columns; ++i)
       if (probes[i].parameters.is_of_block())
@@ -585,6 +589,11 @@ namespace quoin
       if (probes[i].platen
           && dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
         result[1 + i] = 0.;
+    // Behind them, whether one of two points is in a block that is not there.
+    const std::size_t n_values = result.size();
+    for (unsigned int i = 0; i < n_columns; ++i)
+      result.push_back(
+          probes[i].ends > 0 && is_at_absent(probes[i], state) ? 1. : 0.);
     MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPI_DOUBLE,
                   MPI_SUM, communicator);
     result[0] = time;
@@ -616,7 +625,12 @@ namespace quoin
       else if (wanted.quantity == HistoryQuantity::water)
         result[1 + i] = water_value(probes[i], state);
       else if (wanted.is_of_two_points())
-        result[1 + i] = value_of_two(probes[i], result.data() + 1);
+      {
+        const double value = value_of_two(probes[i], result.data() + 1);
+        // That of a block that has been deleted is no number.
+        result[1 + i]
+            = result[n_values + i] > 0. && !std::isnan(value) ? 0. : value;
+      }
     }
     result.resize(1 + n_columns);
     if constexpr (dim == 2)

@@ -120,6 +120,9 @@ namespace quoin
     void find_load(Probe &probe) const;
     /** The row as it counts from the start of the run; collective. */
     std::vector<double> whole_row(const State<dim> &state);
+    /** Whether @p probe, or one of the ends between which it is, is in a block
+        of this rank that is absent. */
+    bool is_at_absent(const Probe &probe, const State<dim> &state) const;
     /** Whether each column is about a block that is absent; collective. */
     std::vector<unsigned int> about_absent(const State<dim> &state) const;
     double cable_value(const HistoryParameters &wanted,

@@ -275,6 +275,36 @@ TEST(Histories, OfJointsGoOnWhenTheyHaveBecomeContacts)
   }
 }
 
+TEST(Histories, OfTwoPointsAreZeroWhereOneIsInABlockThatIsNotThere)
+{
+  using Q = HistoryQuantity;
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}));
+  for (NodeRecord<2> &node : run.state.nodes)
+    node.u = dealii::Point<2>(0.1 + 0.01 * node.X[1], 0.2 * node.X[0]);
+  const std::array<double, 3> below = { { 0., 0., 0. } },
+                              side  = { { 3., 0., 0. } },
+                              above = { { 0.3, 4., 0. } };
+  std::vector<HistoryParameters> wanted;
+  for (const auto &[a, b] :
+       { std::pair(below, above), std::pair(above, below) })
+    for (const Q quantity :
+         { Q::relative_displacement, Q::tilt, Q::distance_change })
+      wanted.push_back(history(quantity, 0, a, b));
+  wanted.push_back(history(Q::relative_displacement, 1, below, side));
+  auto row = row_of(wanted, run);
+  for (unsigned int i = 1; i <= wanted.size(); ++i)
+    EXPECT_GT(std::abs(row[i]), 1e-3) << "column " << i;
+  run.state.block_marks.assign(2, block_mark::present);
+  run.state.block_marks[1] = block_mark::absent;
+  row                      = row_of(wanted, run);
+  for (unsigned int i = 1; i < wanted.size(); ++i)
+    EXPECT_EQ(row[i], 0.) << "column " << i;
+  EXPECT_NEAR(row[wanted.size()], 0.6, 1e-14);
+}
+
 TEST(Histories, HaveNoValueInADeletedBlock)
 {
   using Q = HistoryQuantity;
