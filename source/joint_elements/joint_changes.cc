@@ -25,20 +25,23 @@ namespace quoin
     /** keep_joint_tractions() of point @p p, with opening and slip @p gap. */
     template <typename Law>
     void keep_traction(const Law &law, const std::array<double, 2> &gap,
-                       JointHistory &history, const unsigned int p)
+                       const std::size_t n_points, JointHistory &history,
+                       const unsigned int p)
     {
       auto point = read_point(law, history, p);
       // What is open keeps what its opening counts from, unless it may bear
       // tension.
       if (point.state == JointState::open && !Law::bridges)
         return;
-      auto at_rest = point;
+      auto at_rest      = point;
+      const auto before = point.plastic_slip;
       law.initialise(at_rest, point.normal_traction, point.shear_traction);
       point.normal_traction = at_rest.normal_traction;
       point.shear_traction  = at_rest.shear_traction;
       point.plastic_opening = at_rest.plastic_opening + gap[0];
       point.plastic_slip
           = at_rest.plastic_slip + slip_since_placing(history, p, gap[1]);
+      move_elastic_origin(point.plastic_slip - before, n_points, history, p);
       write_point(point, history, p);
     }
   } // namespace
@@ -64,6 +67,8 @@ namespace quoin
                  {
                    auto point = read_point(law, history, 2 * i + k);
                    law.initialise(point, normal, shear);
+                   move_elastic_origin(point.plastic_slip, joints.n_points(),
+                                       history, 2 * i + k);
                    write_point(point, history, 2 * i + k);
                  });
       }
@@ -151,6 +156,8 @@ namespace quoin
                  point.plastic_opening     = gap[k][0];
                  history.placed_opening[p] = gap[k][0];
                  history.placed_slip[p]    = gap[k][1];
+                 if (!history.elastic_origin.empty())
+                   history.elastic_origin[p] = 0.;
                  write_point(point, history, p);
                }
              });
@@ -190,7 +197,8 @@ namespace quoin
                [&](const auto &law)
                {
                  for (unsigned int k = 0; k < 2; ++k)
-                   keep_traction(law, gap[k], history, 2 * i + k);
+                   keep_traction(law, gap[k], joints.n_points(), history,
+                                 2 * i + k);
                });
     }
   }

@@ -59,6 +59,7 @@ namespace quoin
     auto point                 = read_point(law, history, p);
     const double total_opening = point.plastic_opening;
     const Slip<dim> total_slip = point.plastic_slip;
+    const Slip<dim> slip_done  = plastic_slip_done(history, p);
     JointResponse<dim> result;
     JointDissipation lost;
     if constexpr (Law::is_brittle)
@@ -75,7 +76,7 @@ namespace quoin
     result.opens = result.plastic_opening == 0.
                        ? 0.
                        : sign_of_growth(total_opening, result.plastic_opening);
-    result.slips = sign_of_growth(total_slip, result.plastic_slip);
+    result.slips = sign_of_growth(slip_done, result.plastic_slip);
     return result;
   }
 } // namespace quoin

@@ -45,6 +45,8 @@ namespace quoin
             {
               auto point = read_point(law, history, 3 * i + k);
               law.initialise(point, parts[0], slip_of(parts));
+              move_elastic_origin(point.plastic_slip, joints.n_points(),
+                                  history, 3 * i + k);
               write_point(point, history, 3 * i + k);
             },
             joints.laws()[face.set]);
@@ -151,6 +153,8 @@ namespace quoin
             point.plastic_opening             = gaps[k][0];
             history.placed_opening[3 * i + k] = gaps[k][0];
             set_slip<3>(history.placed_slip, 3 * i + k, slip_of(gaps[k]));
+            if (!history.elastic_origin.empty())
+              set_slip<3>(history.elastic_origin, 3 * i + k, Slip<3>());
             write_point(point, history, 3 * i + k);
           }
         },
@@ -199,7 +203,8 @@ namespace quoin
               if (point.state == JointState::open
                   && !std::decay_t<decltype(law)>::bridges)
                 continue;
-              auto at_rest = point;
+              auto at_rest      = point;
+              const auto before = point.plastic_slip;
               law.initialise(at_rest, point.normal_traction,
                              point.shear_traction);
               point.normal_traction = at_rest.normal_traction;
@@ -208,6 +213,8 @@ namespace quoin
               point.plastic_slip
                   = at_rest.plastic_slip
                     + slip_since_placing(history, 3 * i + k, slip_of(gaps[k]));
+              move_elastic_origin(point.plastic_slip - before,
+                                  joints.n_points(), history, 3 * i + k);
               write_point(point, history, 3 * i + k);
             }
           },

@@ -34,6 +34,8 @@ namespace quoin
         placed a block beside them, from which they count for laws and results;
         empty: none did. */
     AlignedArray<double> placed_slip, placed_opening;
+    /** As JointHistory::elastic_origin, two of each [m]. */
+    AlignedArray<double> elastic_origin;
 
     /** For @p n_faces with @p n_internal internal variables. */
     void resize(const std::size_t n_faces, const unsigned int n_internal = 0)
@@ -62,6 +64,7 @@ namespace quoin
       visitor.own(detached);
       visitor.own(placed_slip, 6);
       visitor.own(placed_opening, 3);
+      visitor.own(elastic_origin, 6);
     }
 
     template <typename Archive>

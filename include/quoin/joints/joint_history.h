@@ -47,6 +47,10 @@ namespace quoin
         them, from which they count for laws, water and results; empty: none
        did. */
     AlignedArray<double> placed_slip, placed_opening;
+    /** Plastic slip that stands for a traction, of the initial stress or of
+        another stiffness, and is none that the point has done [m]; empty: there
+        is none. */
+    AlignedArray<double> elastic_origin;
 
     /** For @p n points with @p n_internal internal variables. */
     void resize(const std::size_t n, const unsigned int n_internal = 0)
@@ -75,6 +79,7 @@ namespace quoin
       visitor.own(handed_over);
       visitor.own(placed_slip, 2);
       visitor.own(placed_opening, 2);
+      visitor.own(elastic_origin, 2);
     }
 
     template <typename Archive>

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 // Points of all joint laws, from and to the arrays of a history.
@@ -134,6 +135,42 @@ namespace quoin
     if (!history.placed_slip.empty())
       slip -= slip_at<History::dimension>(history.placed_slip, p);
     return slip;
+  }
+
+  /** The plastic slip that point @p p has done [m]. */
+  template <typename History>
+  Slip<History::dimension> plastic_slip_done(const History &history,
+                                             const unsigned int p)
+  {
+    /** By the plastic slip, up to which a difference is one of rounding. */
+    constexpr double rounding = 1e-12;
+    const auto size           = [](const Slip<History::dimension> &slip)
+    {
+      if constexpr (History::dimension == 2)
+        return std::abs(slip);
+      else
+        return slip.norm();
+    };
+    const auto slip = slip_at<History::dimension>(history.plastic_slip, p);
+    if (history.elastic_origin.empty())
+      return slip;
+    const auto done
+        = slip - slip_at<History::dimension>(history.elastic_origin, p);
+    return size(done) > rounding * size(slip) ? done
+                                              : Slip<History::dimension>();
+  }
+
+  /** Takes a change of the plastic slip of point @p p of @p history by @p
+     change [m] for none that it has done; @p n: number of points. */
+  template <typename History>
+  void move_elastic_origin(const Slip<History::dimension> &change,
+                           const std::size_t n, History &history,
+                           const unsigned int p)
+  {
+    constexpr int dim = History::dimension;
+    history.elastic_origin.resize((dim - 1) * n, 0.);
+    set_slip<dim>(history.elastic_origin, p,
+                  slip_at<dim>(history.elastic_origin, p) + change);
   }
 
   /** @p History: JointHistory, SpaceJointHistory or PointArrays, here and

@@ -8,6 +8,7 @@
 #include "../joint_laws/composite_walk.h"
 #include "../joint_laws/rock_walk.h"
 
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/joint_elements/joint_tangent.h>
 #include <quoin/contact/law_fields.h>
 #include <quoin/joint_elements/matched_joints.h>
@@ -479,6 +480,35 @@ TEST(JointTangent, InelasticVolumeOfSlipAndOpening)
   joint.place(1.1, back);
   result = joint.linearise(joint.nodes, &joint.history);
   EXPECT_NEAR(result.inelastic, -area * (5e-4 - 2. * elastic), 1e-9 * area);
+}
+
+TEST(JointTangent, TheSlipOfAnInitialTractionIsNoInelasticOne)
+{
+  // Under a shear traction from the start a point slips on along it, against
+  // the plastic slip that stands for the traction.
+  Joint joint(coulomb(0.));
+  joint.broken = { 1, 1 };
+  State<2> state;
+  joint.joints.prepare(state);
+  state.nodes      = joint.nodes;
+  const double tau = 3e4;
+  std::vector<JointFaceStress<2>> stress(1);
+  stress[0] = { { { { 0., -8e4, tau } }, { { 0., -8e4, tau } } } };
+  initialise_joints(joint.joints, stress, state);
+  joint.history = state.get<JointHistory>();
+  ASSERT_LT(joint.history.plastic_slip[0] * joint.history.shear_traction[0],
+            0.);
+  const double sign       = std::copysign(1., joint.history.shear_traction[0]);
+  const double gaps[2][2] = { { 0., sign * 1e-3 }, { 0., sign * 1e-3 } };
+  joint.place(0., gaps);
+  auto result       = joint.linearise(joint.nodes, &joint.history);
+  const double size = thickness * 1e-3;
+  EXPECT_GT(result.inelastic, 0.9 * size);
+  EXPECT_LT(result.inelastic, size);
+  const double back[2][2] = { { 0., sign * 5e-4 }, { 0., sign * 5e-4 } };
+  joint.place(0., back);
+  result = joint.linearise(joint.nodes, &joint.history);
+  EXPECT_LT(result.inelastic, -0.3 * size);
 }
 
 TEST(JointTangent, JointsThatWereHandedOverDoNothing)
