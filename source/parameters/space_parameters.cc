@@ -102,6 +102,8 @@ namespace quoin
                          "section '" + name + "': 'Names'", "Leave it empty.");
     refusals.refuse_if(!ParameterSection(top, "Contact").text("Box").empty(),
                        "section 'Contact': 'Box'", "Leave it empty.");
+    refusals.refuse_if(ParameterSection(top, "Water").text("Flow") != "none",
+                       "section 'Water': 'Flow'", "Take 'none'.");
     const ParameterSection histories(top, "Histories");
     for (const std::string &name : histories.list("Names"))
     {

@@ -82,10 +82,12 @@ class Files(unittest.TestCase):
             dip, direction, _ = stereonet.mean_plane(sets["cross"][1])
             self.assertAlmostEqual(dip, 85)
             self.assertAlmostEqual(np.cos(np.radians(direction)), 1)
-            out = os.path.join(folder, "net.png")
-            run = self.run_script(folder, "--out", out)
-            self.assertEqual(run.returncode, 0, run.stderr)
-            self.assertGreater(os.path.getsize(out), 10000)
+            for name, words in (("net.png", ["--out"]), ("stereonet.png", [])):
+                out = os.path.join(folder, name)
+                run = self.run_script(folder, *words, *[out] * len(words))
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual(run.stdout.strip(), out)
+                self.assertGreater(os.path.getsize(out), 10000)
 
     def test_another_table_is_refused(self):
         with tempfile.TemporaryDirectory(prefix="quoin_") as folder:

@@ -2,7 +2,7 @@
 # Copyright (C) 2026 The quoin authors
 """Draws the planes of section 'Rock joint sets' of a run as a stereonet.
 
-  scripts/stereonet OUTPUT_DIR                  stereonet.png
+  scripts/stereonet OUTPUT_DIR                  OUTPUT_DIR/stereonet.png
   scripts/stereonet OUTPUT_DIR --out sets.pdf
 
 Lower hemisphere, equal areas; north is up. Dots are the poles of the planes in
@@ -120,13 +120,15 @@ def draw(sets, path):
 def main():
     parser = Parser(__doc__)
     parser.add_argument("folder", metavar="OUTPUT_DIR")
-    parser.add_argument("--out", metavar="FILE", default="stereonet.png")
+    parser.add_argument("--out", metavar="FILE",
+                        help="default: OUTPUT_DIR/stereonet.png")
     options = parser.parse_args()
+    path = options.out or os.path.join(options.folder, "stereonet.png")
     try:
-        draw(read_sets(options.folder), options.out)
+        draw(read_sets(options.folder), path)
     except (OSError, ValueError) as error:
         sys.exit(f"stereonet: {error}")
-    print(options.out)
+    print(path)
 
 
 if __name__ == "__main__":
