@@ -3,6 +3,7 @@
 
 #include <quoin/advice/contact_advice.h>
 #include <quoin/advice/load_advice.h>
+#include <quoin/advice/model_summary.h>
 #include <quoin/advice/signal_advice.h>
 #include <quoin/advice/support_advice.h>
 #include <quoin/base/known_names.h>
@@ -19,6 +20,12 @@ namespace quoin
   namespace
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /** In whole percent. */
+    double percent(const double share)
+    {
+      return std::round(100. * share);
+    }
 
     template <int dim>
     void check_ranks(const MeshReport &report, const NodeMap<dim> &nodes,
@@ -48,6 +55,103 @@ namespace quoin
                                       [](const MaterialParameters &material)
                                       { return !material.rigid; }),
                    text);
+    }
+
+    /** Whether @p component is a force that is not zero for ever. */
+    bool acts(const LoadComponent &component)
+    {
+      return component.quantity == LoadQuantity::force
+             && (component.field || !component.value.is_constant()
+                 || component.value({ 0., 0. }) != 0.);
+    }
+
+    /** Whether @p load is a force across the thickness of @p block, of the
+        group @p group. */
+    template <int dim>
+    bool bends(const LoadParameters &load, const SlenderBlock &block,
+               const std::string &group)
+    {
+      /** Cosine to the thickness, below which a force is along the block. */
+      constexpr double least = 0.1;
+      const auto components  = load.along_axes<dim>().components;
+      bool is_across         = false;
+      for (unsigned int d = 0; d < dim; ++d)
+        is_across = is_across
+                    || (acts(components[d]) && std::abs(block.axis[d]) > least);
+      if (load.type == LoadType::gravity)
+        return is_across
+               && (load.groups.empty() || is_among(group, load.groups));
+      return load.type == LoadType::traction
+             && (is_across || acts(load.pressure))
+             && std::any_of(load.boundaries.begin(), load.boundaries.end(),
+                            [&](const std::string &name)
+                            { return block.outer.count(name) > 0; });
+    }
+
+    /** Whether joints or loads hold @p block, of the group @p group, along its
+        faces. */
+    bool is_bedded(const SlenderBlock &block, const std::string &group,
+                   const std::vector<LoadParameters> &loads)
+    {
+      /** Part of the faces that is free, where the block is not bedded. */
+      constexpr double most_free = 0.75;
+      double free                = 0.;
+      const auto holds
+          = [&](const LoadParameters &load, const std::string &name)
+      {
+        return load.type != LoadType::traction && load.type != LoadType::gravity
+               && load.type != LoadType::initial_stress
+               && (is_among(name, load.boundaries)
+                   || is_among(group, load.groups));
+      };
+      for (const auto &[name, size] : block.outer)
+        if (std::none_of(loads.begin(), loads.end(),
+                         [&, &name = name](const LoadParameters &load)
+                         { return holds(load, name); }))
+          free += size;
+      return free < most_free * block.faces;
+    }
+
+    /** Warns of blocks that loads bend, with few cells across. */
+    template <int dim>
+    void check_bending(const Parameters &parameters, const MeshReport &report,
+                       const Model<dim> &model, Advice &advice)
+    {
+      const auto &names         = model.nodes().table().group_names;
+      const SlenderBlock *worst = nullptr;
+      unsigned int n            = 0;
+      for (const SlenderBlock *block : coarse_slender_blocks(
+               parameters, report, model.properties().material_of_group))
+      {
+        const std::string &group = names[block->group];
+        if (is_bedded(*block, group, parameters.loads)
+            || std::none_of(parameters.loads.begin(), parameters.loads.end(),
+                            [&](const LoadParameters &load)
+                            { return bends<dim>(load, *block, group); }))
+          continue;
+        ++n;
+        if (!worst || block->n_across < worst->n_across)
+          worst = block;
+      }
+      if (!worst)
+        return;
+      const char *const cells = dim == 2 ? "triangles" : "tetrahedra";
+      Checks(advice, "")
+          .warn_if(true, count_text(n, "slender block"), ", of '",
+                   names[worst->group], "' at ", report.position(worst->middle),
+                   " m", n > 1 ? " and others" : "", ", ", worst->thickness,
+                   " m thick and ", worst->length, " m long, ",
+                   n == 1 ? "has" : "have", " about ",
+                   0.1 * std::round(10. * worst->n_across), " linear ", cells,
+                   " across, and loads bend it freely: it would bend up to ",
+                   percent(worst->lost_deflection(dim)),
+                   " % less than it should. Four across lose up to ",
+                   dim == 2 ? "14" : "24", " %; or take ",
+                   dim == 3 ? "'Tetrahedra = mixed'"
+                   : parameters.is_implicit
+                       ? "'Triangles = quadratic', which bend as they should"
+                       : "'Triangles = crossed', which lose a third of that",
+                   ".");
     }
 
     /** Warns of joints that the initial stress takes beyond their strength. */
@@ -607,6 +711,7 @@ namespace quoin
     check_ranks(report, model.nodes(), advice);
     check_laws(parameters, advice);
     check_slivers(parameters, report, advice);
+    check_bending(parameters, report, model, advice);
     if constexpr (dim == 2)
     {
       check_bars(model, advice);

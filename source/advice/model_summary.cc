@@ -246,6 +246,41 @@ namespace quoin
     }
   } // namespace
 
+  std::vector<const SlenderBlock *>
+  coarse_slender_blocks(const Parameters &parameters, const MeshReport &report,
+                        const std::vector<unsigned int> &material_of_group)
+  {
+    std::vector<const SlenderBlock *> result;
+    if (parameters.cells.kind == TriangleKind::plain)
+      for (const SlenderBlock &block : report.slender)
+        if (!parameters.model.materials[material_of_group[block.group]].rigid)
+          result.push_back(&block);
+    return result;
+  }
+
+  std::vector<std::string>
+  bending_lines(const Parameters &parameters, const MeshReport &report,
+                const std::vector<unsigned int> &material_of_group)
+  {
+    const auto blocks
+        = coarse_slender_blocks(parameters, report, material_of_group);
+    if (blocks.empty())
+      return {};
+    const SlenderBlock &worst
+        = **std::min_element(blocks.begin(), blocks.end(),
+                             [](const SlenderBlock *a, const SlenderBlock *b)
+                             { return a->n_across < b->n_across; });
+    return { text_of(
+        "bending: ", count_text(blocks.size(), "slender block"),
+        blocks.size() == 1 ? " has" : " have", " fewer than four linear ",
+        report.dimension == 2 ? "triangles" : "tetrahedra",
+        " across, the fewest ", 0.1 * std::round(10. * worst.n_across),
+        " across ", worst.thickness, " m at ", report.position(worst.middle),
+        " m: free bending would be up to ",
+        std::round(100. * worst.lost_deflection(report.dimension)),
+        " % too small there") };
+  }
+
   template <int dim>
   std::vector<std::string> load_lines(const Parameters &parameters,
                                       const NodeMap<dim> &nodes)

@@ -134,6 +134,8 @@ namespace quoin
       for (const auto &lines :
            { material_lines(parameters, *system.nodes,
                             system.model->properties().material_of_group),
+             bending_lines(parameters, system.mesh_report,
+                           system.model->properties().material_of_group),
              joint_lines(parameters, system.mesh_report),
              load_lines(parameters, *system.nodes),
              boundary_lines(

@@ -531,6 +531,7 @@ namespace quoin
     add_quality(mesh, report);
     add_heights(mesh, report);
     add_joints(mesh, report);
+    report.slender = slender_blocks(mesh);
     // A node in the middle of each edge, of which inner ones have two cells.
     if (mesh.quadratic)
       report.n_nodes += (3 * mesh.n_cells() + mesh.boundary_faces.size()

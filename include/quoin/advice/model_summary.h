@@ -40,6 +40,17 @@ namespace quoin
   std::vector<std::string> face_lines(const Parameters &parameters,
                                       const NodeMap<dim> &nodes);
 
+  /** The deformable blocks of @p report that are slender, of plain linear cells
+      of which few lie across them. */
+  std::vector<const SlenderBlock *>
+  coarse_slender_blocks(const Parameters &parameters, const MeshReport &report,
+                        const std::vector<unsigned int> &material_of_group);
+
+  /** How many they are, and by how much they are too stiff where they bend. */
+  std::vector<std::string>
+  bending_lines(const Parameters &parameters, const MeshReport &report,
+                const std::vector<unsigned int> &material_of_group);
+
   template <int dim>
   std::vector<std::string> load_lines(const Parameters &parameters,
                                       const NodeMap<dim> &nodes);

@@ -4,10 +4,11 @@
 #ifndef quoin_mesh_mesh_report_h
 #define quoin_mesh_mesh_report_h
 
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/slender_blocks.h>
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <array>
 #include <map>
@@ -75,6 +76,9 @@ namespace quoin
     double overlap_depth = 0.;
     dealii::Point<3> overlap_position; /**< where that is [m] */
 
+    /** Blocks with few cells across their thickness. */
+    std::vector<SlenderBlock> slender;
+
     std::array<dealii::Point<3>, 2> box{}; /**< lower and upper corner [m] */
 
     template <typename Archive>
@@ -86,7 +90,7 @@ namespace quoin
                   &n_joint_ends &n_tied_joint_faces &n_reoriented_cells
                       &largest_shift &unmatched_size &unmatched_touch
                           &unmatched_position &overlaps &overlap_depth
-                              &overlap_position &box;
+                              &overlap_position &slender &box;
     }
 
     /** Lines of text without a final newline. */

@@ -314,6 +314,53 @@ TEST(InputAdvice, BoundaryElementsTooLongForStress)
   EXPECT_NE(too_long[0].find("eight to ten"), std::string::npos);
 }
 
+TEST(InputAdvice, BendingWithFewCellsAcross)
+{
+  // A cantilever, held at its left end.
+  MeshData<2> data;
+  add_grid(data, 12, 2, "lower", 0., 0.);
+  add_curve(data, "bottom", 0., 0., 0., 2.);
+  add_curve(data, "top", 0., 2., 12., 2.);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  Parameters parameters = good_parameters();
+  parameters.model.joints.clear();
+  parameters.model.materials.resize(1);
+  const TestNodes nodes(mesh);
+  const auto warns = [&]()
+  {
+    const Model<2> model(nodes, parameters.model);
+    const Advice all = model_advice(parameters, make_mesh_report(mesh), model,
+                                    model.initial_state());
+    return std::any_of(all.begin(), all.end(),
+                       [](const std::string &line)
+                       {
+                         return line.find("about 2 linear triangles across")
+                                    != std::string::npos
+                                && line.find("39 %") != std::string::npos;
+                       });
+  };
+  EXPECT_FALSE(warns()) << "pulled along";
+  EXPECT_EQ(bending_lines(parameters, make_mesh_report(mesh), { 0 }).size(),
+            1U);
+  parameters.loads[1] = traction("push", "top", "0", "1e3");
+  EXPECT_TRUE(warns());
+  parameters.loads[1].boundaries = { "bottom" };
+  EXPECT_FALSE(warns()) << "loaded at its end";
+  parameters.loads[1] = gravity("-9.81", "0");
+  EXPECT_FALSE(warns()) << "upright";
+  parameters.loads[1] = gravity("0", "-9.81");
+  EXPECT_TRUE(warns());
+  parameters.cells = TriangleKind::crossed;
+  EXPECT_FALSE(warns());
+  parameters.cells                      = TriangleKind::plain;
+  parameters.loads[0].boundaries.back() = "top";
+  EXPECT_FALSE(warns()) << "bedded";
+  parameters.loads[0].boundaries.back() = "bottom";
+  parameters.model.materials[0].rigid   = true;
+  EXPECT_TRUE(bending_lines(parameters, make_mesh_report(mesh), { 0 }).empty());
+}
+
 TEST(ModelSummary, SaysWhatThereIs)
 {
   const Parameters parameters = good_parameters();

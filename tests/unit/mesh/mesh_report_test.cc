@@ -129,6 +129,43 @@ TEST(MeshReport, FindsSlivers)
   EXPECT_NE(text.find("is only 7.071e-06 m high"), std::string::npos) << text;
 }
 
+TEST(MeshReport, FindsSlenderBlocksWithFewCellsAcross)
+{
+  // Two plates on each other, turned by an angle.
+  const auto slender = [](const unsigned int nx, const unsigned int ny,
+                          const bool quadratic = false)
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, nx, ny, quadratic);
+    for (dealii::Point<2> &p : mesh.vertices)
+      p = dealii::Point<2>(1e3 + 0.8 * p[0] - 0.6 * p[1],
+                           0.6 * p[0] + 0.8 * p[1]);
+    return make_mesh_report(mesh).slender;
+  };
+  const auto found = slender(12, 2);
+  ASSERT_EQ(found.size(), 2U);
+  for (const unsigned int b : { 0U, 1U })
+  {
+    const SlenderBlock &block = found[b];
+    EXPECT_EQ(block.group, b);
+    EXPECT_NEAR(block.thickness, 2., 1e-6);
+    EXPECT_NEAR(block.length, 12., 1e-6);
+    EXPECT_NEAR(std::abs(block.axis * dealii::Point<3>(-0.6, 0.8, 0.)), 1.,
+                1e-9);
+    EXPECT_NEAR(block.faces, 24., 1e-6);
+    ASSERT_EQ(block.outer.size(), 1U);
+    EXPECT_NEAR(block.outer.at(b == 0 ? "bottom" : "top"), 12., 1e-6);
+    // Cells reach across one of two layers. So much a cantilever ten times as
+    // long as thick loses.
+    EXPECT_NEAR(block.n_across, 2., 1e-6);
+    EXPECT_NEAR(block.lost_deflection(2), 0.39, 0.01);
+  }
+  EXPECT_TRUE(slender(12, 4).empty()) << "not slender";
+  EXPECT_EQ(slender(17, 3).size(), 2U);
+  EXPECT_TRUE(slender(17, 4).empty()) << "enough across";
+  EXPECT_TRUE(slender(12, 2, true).empty());
+}
+
 TEST(MeshReport, DoesNotMistakeCornersForContacts)
 {
   MeshData<2> data;
