@@ -307,6 +307,27 @@ namespace quoin
                             });
     }
 
+    /** The acceleration of a load that alone gives blocks a vertical weight, if
+        it is a number, otherwise 0 [m/s^2]. */
+    double lone_weight(const LoadParameters &load,
+                       const std::vector<LoadParameters> &loads)
+    {
+      const auto has_vertical = [](const LoadParameters &each)
+      {
+        const LoadComponent &vertical = each.components[1];
+        return each.type == LoadType::gravity
+               && vertical.quantity != LoadQuantity::free
+               && !(vertical.value.is_constant()
+                    && vertical.value({ 0., 0. }) == 0.);
+      };
+      const LoadComponent &own = load.components[1];
+      return has_vertical(load) && own.value.is_constant()
+                     && std::count_if(loads.begin(), loads.end(), has_vertical)
+                            == 1
+                 ? own.value({ 0., 0. })
+                 : 0.;
+    }
+
     bool have_common_blocks(const LoadParameters &a, const LoadParameters &b)
     {
       return a.groups.empty() || b.groups.empty()
@@ -441,6 +462,16 @@ namespace quoin
                           " m/s^2 is far more than usual. Check the unit."));
               break;
             }
+      // A seismic coefficient may be a tenth, but beside the weight.
+      constexpr double on_earth = 9.81, digits = 0.005;
+      const double weight = lone_weight(load, parameters.loads);
+      for (const double power : { 0.1, 10. })
+        if (std::abs(std::abs(weight) / (power * on_earth) - 1.) < digits)
+          warnings.push_back(
+              text_of("load ", load.name, ": gravity of ", weight, " m/s^2 is ",
+                      power < 1. ? "a tenth of" : "ten times",
+                      " that on the earth, and no other load has a weight. "
+                      "Check the decimal point."));
       if (!has_weight && is_without_weight(load, top))
         warnings.push_back(
             "load " + load.name
