@@ -5,6 +5,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
+#include <quoin/base/noted_parameters.h>
 #include <quoin/base/parameter_section.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -245,9 +246,17 @@ namespace quoin
           return complaint(given + "must be one of: " + known_names(words)
                                + ".",
                            nearest_name(value, words));
+        auto suggested    = words;
+        const auto *noted = dynamic_cast<const NotedParameters *>(&prm);
+        if (noted && noted->suggests)
+          suggested.erase(std::remove_if(suggested.begin(), suggested.end(),
+                                         [&](const std::string &word) {
+                                           return !noted->suggests(name, word);
+                                         }),
+                          suggested.end());
         return { given + "is none of the " + std::to_string(words.size())
                      + " known values, which 'quoin --print-schema' lists.",
-                 "Near ones are: " + known_names(near_names(value, words))
+                 "Near ones are: " + known_names(near_names(value, suggested))
                      + ". " };
       }
       if (const std::string words = number_words(pattern);

@@ -243,6 +243,10 @@ namespace quoin
     const ParameterFile input(file, overrides);
     NotedParameters names;
     declare_names(named_sections, names);
+    names.enter_subsection("Mesh");
+    for (const char *const entry : { "File", "Dimension" })
+      names.declare_entry(entry, "", dealii::Patterns::Anything());
+    names.leave_subsection();
     input.parse(names, true);
 
     NotedParameters prm;
@@ -254,6 +258,14 @@ namespace quoin
       for (const std::string &warning : declare_unlisted(
                section, file, input.subsections(section.name), names, prm))
         parameters.warnings.push_back(warning);
+    const unsigned int dimension
+        = dimension_of_mesh(ParameterSection(names, file));
+    prm.suggests
+        = [dimension](const std::string &entry, const std::string &word)
+    {
+      return entry != "Quantity" || dimension == 0
+             || HistoryParameters::exists_in(word, dimension);
+    };
     input.parse(prm, false);
     parameters.places = prm.places;
     parameters.warnings.insert(parameters.warnings.end(), prm.repeated.begin(),

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/parameters/model_parameters.h>
 
+#include <filesystem>
 #include <fstream>
 #include <regex>
 
@@ -74,6 +75,18 @@ namespace quoin
 
   namespace
   {
+    /** Whether a geometry or mesh names volumes. */
+    bool names_volumes(const std::string &mesh_file)
+    {
+      static const std::regex volume(
+          R"(\s*(Physical Volume\b.*|3 \d+ "[^"]*"\s*))");
+      std::ifstream file(mesh_file);
+      for (std::string line; std::getline(file, line) && line != "$Nodes";)
+        if (std::regex_match(line, volume))
+          return true;
+      return false;
+    }
+
     /** Whether the mesh will be one of tetrahedra, as far as its file or
         'Dimension' says so. */
     bool is_in_space(const Parameters &parameters)
@@ -81,15 +94,25 @@ namespace quoin
       if (parameters.dimension != MeshDimension::from_mesh
           || !parameters.generated.geometry.empty())
         return parameters.dimension == MeshDimension::three;
-      static const std::regex volume(
-          R"(\s*(Physical Volume\b.*|3 \d+ "[^"]*"\s*))");
-      std::ifstream file(parameters.mesh_file);
-      for (std::string line; std::getline(file, line) && line != "$Nodes";)
-        if (std::regex_match(line, volume))
-          return true;
-      return false;
+      return names_volumes(parameters.mesh_file);
     }
   } // namespace
+
+  unsigned int dimension_of_mesh(const ParameterSection &top)
+  {
+    const ParameterSection mesh(top, "Mesh");
+    if (const std::string word = mesh.text("Dimension");
+        word == "2" || word == "3")
+      return word == "2" ? 2 : 3;
+    const std::string file = in_folder(top, mesh.text("File"));
+    const auto extension   = std::filesystem::path(file).extension();
+    if (extension == ".obj" || extension == ".stl" || extension == ".3dgrid")
+      return 3;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+      return 0;
+    return names_volumes(file) ? 3 : 2;
+  }
 
   void check_sections_in_space(const ParameterSection &top,
                                const Parameters &parameters)

@@ -348,6 +348,14 @@ namespace quoin
   template void HistoryParameters::check_dimension<2>() const;
   template void HistoryParameters::check_dimension<3>() const;
 
+  bool HistoryParameters::exists_in(const std::string &quantity,
+                                    const unsigned int dimensions)
+  {
+    const auto found = kinds().find(quantity);
+    return found == kinds().end() || found->second.dimension == 0
+           || found->second.dimension == dimensions;
+  }
+
   bool HistoryParameters::is_of_plane(const std::string &quantity)
   {
     const auto found = kinds().find(quantity);

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -30,6 +31,10 @@ namespace quoin
 
     /** Warnings of entries that one file sets twice. */
     std::vector<std::string> repeated;
+
+    /** Whether a message about a wrong value of the entry with the first name
+        is to suggest the second word; null: it may suggest all words. */
+    std::function<bool(const std::string &, const std::string &)> suggests;
   };
 
   /** Where the entry "Section/Name" of @p prm is set, if that has notes of it;

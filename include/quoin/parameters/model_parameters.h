@@ -18,6 +18,10 @@ namespace quoin
       wall or of rock, and the places of joints. */
   void read_mesh(const ParameterSection &top, Parameters &parameters);
 
+  /** Dimension of the model as far as 'File' and 'Dimension' of section 'Mesh'
+      say, which are all that @p top needs to have; 0: they do not. */
+  unsigned int dimension_of_mesh(const ParameterSection &top);
+
   /** Refuses sections that belong to two dimensions before their entries are
       read, if the mesh is known to have three. */
   void check_sections_in_space(const ParameterSection &top,

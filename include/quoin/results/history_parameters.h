@@ -129,6 +129,10 @@ namespace quoin
     template <int dim>
     void check_dimension() const;
 
+    /** Whether models of blocks in @p dimensions have @p quantity, or it is
+        none. */
+    static bool exists_in(const std::string &quantity, unsigned int dimensions);
+
     /** Whether @p quantity, as in a parameter file, is one of models in two
         dimensions alone. */
     static bool is_of_plane(const std::string &quantity);
