@@ -135,8 +135,18 @@ TEST(MeshReport, FindsSlenderBlocksWithFewCellsAcross)
   const auto slender = [](const unsigned int nx, const unsigned int ny,
                           const bool quadratic = false)
   {
+    MeshData<2> data;
+    for (const unsigned int i : { 0U, 1U })
+    {
+      const double y = i * ny;
+      add_grid(data, nx, ny, i == 0 ? "lower" : "upper", 0., y);
+      add_curve(data, i == 0 ? "bottom" : "joint", 0., y, nx, y);
+      if (i == 1)
+        add_curve(data, "top", 0., y + ny, nx, y + ny);
+    }
+    data.quadratic = quadratic;
     BlockMesh<2> mesh;
-    make_stack(mesh, nx, ny, quadratic);
+    split_into_blocks(data, {}, mesh);
     for (dealii::Point<2> &p : mesh.vertices)
       p = dealii::Point<2>(1e3 + 0.8 * p[0] - 0.6 * p[1],
                            0.6 * p[0] + 0.8 * p[1]);
