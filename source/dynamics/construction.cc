@@ -335,6 +335,13 @@ namespace quoin
         if (step.excavate[g] || step.fill[g])
           present[g] = step.fill[g];
       }
+      if (step.takes
+          && std::find(present.begin(), present.end(), true) == present.end())
+        throw InputError(
+            step.where
+            + ": 'Excavate' takes all blocks that are there. Name "
+              "only those that are excavated: physical surfaces of "
+              "the mesh, of which others must remain.");
       if ((step.takes || step.places || step.changes)
           && model.parameters().large_displacements)
         throw InputError(step.where
