@@ -48,8 +48,8 @@ namespace quoin
     }
   };
 
-  /** Updates point @p p of @p history for @p opening and @p slip [m]; a brittle
-      one waits for its @p loss. Books @p weight times the dissipation. */
+  /** Updates point @p p of @p history for @p opening and @p slip [m]; one that
+      waits does so for its @p loss. Books @p weight times the dissipation. */
   template <int dim, typename Law, typename History>
   JointResponse<dim> respond(const Law &law, const double opening,
                              const Slip<dim> &slip, const JointLoss loss,
@@ -62,7 +62,7 @@ namespace quoin
     const Slip<dim> slip_done  = plastic_slip_done(history, p);
     JointResponse<dim> result;
     JointDissipation lost;
-    if constexpr (Law::is_brittle)
+    if constexpr (Law::waits)
       lost = law.update_waiting(point, opening, slip, loss, result.tangent);
     else
       lost = law.update(point, opening, slip, result.tangent);

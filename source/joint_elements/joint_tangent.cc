@@ -137,7 +137,7 @@ namespace quoin
       std::visit(
           [&](const auto &law)
           {
-            if constexpr (std::decay_t<decltype(law)>::is_brittle)
+            if constexpr (std::decay_t<decltype(law)>::waits)
               excess = law.excess(read_point(law, history, p));
           },
           joints.laws()[joints.segments()[p / 2].set]);

@@ -68,6 +68,7 @@ namespace quoin
           "Coulomb without tension whose cohesion is never lost" } }
     };
     static constexpr bool is_brittle = true;
+    static constexpr bool waits      = true;
 
     JointStrength peak;
     JointStrength residual;

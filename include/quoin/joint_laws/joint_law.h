@@ -35,7 +35,7 @@ namespace quoin
    * - update_elastic(point, opening, slip), false where the joint fails, slips
    *   or is open, and update_failing() for the rest, which returns what it
    *   dissipated; update(point, opening, slip, tangent), both with the
-   *   consistent tangent; update_waiting() and excess() if it is_brittle;
+   *   consistent tangent; update_waiting() and excess() if it waits;
    * - stored_energy(point, opening), for any opening unless
    *   stores_by_opening(point), carried_energy(before, after),
    *   stiffness_at(sigma) and largest_stiffness().

@@ -52,6 +52,7 @@ namespace quoin
         = { { { "slip weakening",
                 "cohesion and friction that decrease linearly with slip, "
                 "without tension, for faults" } } };
+    static constexpr bool waits = true;
 
     double cohesion          = 0.; /**< c_0 [Pa] */
     double residual_cohesion = 0.; /**< c_r [Pa] */
@@ -141,6 +142,24 @@ namespace quoin
     JointDissipation update(SlipWeakeningPoint<dim> &point,
                             const double opening, const Slip<dim> &slip,
                             JointTangent<dim> &tangent) const;
+
+    /** As update(), but a closed joint that opens keeps the shear which its
+        cohesion bears until its @p loss, see CoulombLaw. */
+    template <int dim>
+    JointDissipation update_waiting(SlipWeakeningPoint<dim> &point,
+                                    const double opening, const Slip<dim> &slip,
+                                    const JointLoss loss,
+                                    JointTangent<dim> &tangent) const;
+
+    /** Shear of an open @p point by the cohesion, zero: it holds. */
+    template <int dim>
+    double excess(const SlipWeakeningPoint<dim> &point) const
+    {
+      const double tau = magnitude(point.shear_traction);
+      return point.state == JointState::open && tau > 0.
+                 ? tau / std::max(cohesion, residual_cohesion)
+                 : 0.;
+    }
 
     template <int dim>
     JointDissipation update(SlipWeakeningPoint<dim> &point,
@@ -258,6 +277,33 @@ namespace quoin
       tangent.shear_slip
           += (ks - ks * ks * step.slip / size)
              * (isotropic<dim>(1.) - outer_product(direction, direction));
+    return lost;
+  }
+
+  template <int dim>
+  JointDissipation
+  SlipWeakeningLaw::update_waiting(SlipWeakeningPoint<dim> &point,
+                                   const double opening, const Slip<dim> &slip,
+                                   const JointLoss loss,
+                                   JointTangent<dim> &tangent) const
+  {
+    if (strength(0., point.slipped) <= 0.)
+      return update(point, opening, slip, tangent);
+    if (loss == JointLoss::cohesion || point.state == JointState::open)
+    {
+      SlipWeakeningLaw law  = *this;
+      law.cohesion          = 0.;
+      law.residual_cohesion = 0.;
+      return law.update(point, opening, slip, tangent);
+    }
+    if (opening <= point.plastic_opening)
+      return update(point, opening, slip, tangent);
+    // As if it touched without pressure.
+    const JointDissipation lost
+        = update(point, point.plastic_opening, slip, tangent);
+    tangent.normal_opening = 0.;
+    tangent.shear_opening  = Slip<dim>();
+    point.state            = JointState::open;
     return lost;
   }
 } // namespace quoin

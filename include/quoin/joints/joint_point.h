@@ -174,9 +174,10 @@ namespace quoin
       joint_law.h. */
   struct JointLawDefaults
   {
-    /** Whether its tractions drop at failure, see CoulombLaw::update_waiting().
-     */
+    /** Whether its tractions drop at failure. */
     static constexpr bool is_brittle = false;
+    /** Whether it has update_waiting() and excess(), see CoulombLaw. */
+    static constexpr bool waits = false;
     /** Whether stiffnesses grow with the pressure, from less than the bound. */
     static constexpr bool stiffens = false;
     /** Whether a joint that is open may bear tension. */

@@ -135,6 +135,41 @@ TEST(SlipWeakeningLaw, OpenJointsBearNothingAndCloseWhereTheyParted)
   EXPECT_EQ(point.slipped, 0.);
 }
 
+TEST(SlipWeakeningLaw, ShearOfCohesionWaitsWhereAJointOpens)
+{
+  // After 0.5 mm of slip the cohesion is 0.4 MPa.
+  const SlipWeakeningLaw law = fault();
+  SlipWeakeningPoint<2> start;
+  law.update(start, sigma / kn, 5e-4 + expected(5e-4) / ks);
+  ASSERT_NEAR(start.slipped, 5e-4, 1e-9);
+  const double origin = start.plastic_slip;
+  JointTangent<2> tangent;
+  auto at = [&](const double opening, const double shear, const JointLoss loss)
+  {
+    SlipWeakeningPoint<2> point = start;
+    law.update_waiting(point, opening, origin + shear / ks, loss, tangent);
+    return point;
+  };
+  auto point = at(1e-5, 0.3e6, JointLoss::nothing);
+  EXPECT_EQ(point.state, JointState::open);
+  EXPECT_EQ(point.normal_traction, 0.);
+  EXPECT_NEAR(point.shear_traction, 0.3e6, 1.);
+  EXPECT_NEAR(law.excess(point), 0.6, 1e-5);
+  EXPECT_EQ(tangent.normal_opening, 0.);
+  EXPECT_EQ(tangent.shear_slip, ks);
+  // Beyond that it slips: 0.6 MPa less ks dp are 0.4 MPa less 0.2 GPa/m dp.
+  point = at(1e-5, 0.6e6, JointLoss::nothing);
+  EXPECT_NEAR(point.slipped - start.slipped, 0.2e6 / (ks - 0.2e9), 1e-9);
+  EXPECT_NEAR(point.shear_traction, 0.6e6 - 0.2e6 * ks / (ks - 0.2e9), 1.);
+  EXPECT_EQ(tangent.shear_opening, 0.);
+  // Without it there is none, nor where it touches without pressure.
+  point = at(1e-5, 0.3e6, JointLoss::cohesion);
+  EXPECT_EQ(point.shear_traction, 0.);
+  EXPECT_EQ(law.excess(point), 0.);
+  start = point;
+  EXPECT_NEAR(at(-1e-12, 0.3e6, JointLoss::nothing).shear_traction, 0., 0.01);
+}
+
 TEST(SlipWeakeningLaw, DropsAtOnceIfItWeakensFasterThanItUnloads)
 {
   SlipWeakeningLaw law = fault();
