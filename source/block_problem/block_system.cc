@@ -272,8 +272,14 @@ namespace quoin
     try
     {
       double power = 0.;
+      // Nodes of blocks that are taken away move.
+      AlignedArray<NodeRecord<dim>> nodes_before;
       if constexpr (dim == 2)
+      {
         power = model->reinforcement().end_stage(state);
+        if (!model->reinforcement().empty())
+          nodes_before = state.nodes;
+      }
       construction->begin_stage(index, *solver, state);
       if constexpr (dim == 2)
         if (!model->reinforcement().empty())
@@ -281,7 +287,8 @@ namespace quoin
           AlignedArray<dealii::Tensor<1, dim>> released(
               state.nodes.size(), dealii::Tensor<1, dim>());
           model->reinforcement().begin_stage(stage.name, index == 0, power,
-                                             state, released.data());
+                                             state, released.data(),
+                                             nodes_before.data());
           construction->hold(index, released, state);
         }
       if (implicit_solver)

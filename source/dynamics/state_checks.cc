@@ -5,6 +5,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/state_checks.h>
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/model/model_stability.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ namespace quoin
     {
       const auto &[a, b]  = joints.segments()[i].lower;
       const double length = nodes.point(a).distance(nodes.point(b));
-      const auto gaps = joint_gaps(joints.segments()[i], state.nodes.data());
+      const auto gaps     = gaps_since_placing(joints, i, state);
       for (unsigned int k = 0; k < 2; ++k)
         if (state.get<JointHistory>().normal_traction[2 * i + k] < 0.)
           largest = std::max(largest, std::abs(gaps[k][1]) / length);
@@ -83,15 +84,17 @@ namespace quoin
     const NodeMap<2> &nodes = model.nodes();
     const auto rotations    = block_rotations(nodes, state);
     JointMotion motion;
-    for (const JointSegment &segment : model.joints().segments())
+    const MatchedJoints &joints = model.joints();
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
-      const unsigned int a = nodes.block_of_node(segment.lower[0]),
-                         b = nodes.block_of_node(segment.upper[0]);
+      const JointSegment &segment = joints.segments()[i];
+      const unsigned int a        = nodes.block_of_node(segment.lower[0]),
+                         b        = nodes.block_of_node(segment.upper[0]);
       if (state.is_absent(a) || state.is_absent(b))
         continue;
       motion.turn
           = std::max(motion.turn, std::abs(rotations[a] - rotations[b]));
-      for (const auto &gap : joint_gaps(segment, state.nodes.data()))
+      for (const auto &gap : gaps_since_placing(joints, i, state))
         motion.distance = std::max(motion.distance, std::hypot(gap[0], gap[1]));
     }
     for (double *value : { &motion.turn, &motion.distance })
@@ -162,7 +165,7 @@ namespace quoin
           = std::max({ nodes.point(a).distance(nodes.point(b)),
                        nodes.point(b).distance(nodes.point(c)),
                        nodes.point(c).distance(nodes.point(a)) });
-      const auto gaps = joint_gaps(joints.faces()[i], state.nodes.data());
+      const auto gaps = gaps_since_placing(joints, i, state);
       for (unsigned int k = 0; k < 3; ++k)
       {
         const double slip = std::hypot(gaps[k][1], gaps[k][2]);

@@ -338,18 +338,26 @@ namespace quoin
   bool NewtonSolver<dim>::break_joints()
   {
     const auto &history = balance.state.template get<JointHistoryOf<dim>>();
-    double largest      = 0.;
+    // A point loses more each time, or nothing: the residual strength may be
+    // above the peak.
+    const auto loss = [&](const unsigned int p)
+    {
+      return std::uint8_t(history.state[p] == JointState::intact
+                              ? JointLoss::peak
+                              : JointLoss::cohesion);
+    };
+    double largest = 0.;
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
-      largest = std::max(largest, excess(model.joints(), p, history));
+      if (loss(p) > broken[p])
+        largest = std::max(largest, excess(model.joints(), p, history));
     largest = dealii::Utilities::MPI::max(largest, communicator);
     if (largest <= 1e-9)
       return false;
     // The most overstressed point, and those that would follow at once.
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
-      if (excess(model.joints(), p, history) >= 0.7 * largest)
-        broken[p] = std::uint8_t(history.state[p] == JointState::intact
-                                     ? JointLoss::peak
-                                     : JointLoss::cohesion);
+      if (loss(p) > broken[p]
+          && excess(model.joints(), p, history) >= 0.7 * largest)
+        broken[p] = loss(p);
     some_broke = true;
     return true;
   }

@@ -471,7 +471,7 @@ namespace quoin
               text_of("load ", load.name, ": gravity of ", weight, " m/s^2 is ",
                       power < 1. ? "a tenth of" : "ten times",
                       " that on the earth, and no other load has a weight. "
-                      "Check the decimal point."));
+                      "Check the decimal point, unless that is meant."));
       if (!has_weight && is_without_weight(load, top))
         warnings.push_back(
             "load " + load.name

@@ -128,7 +128,8 @@ namespace quoin
 
   void Reinforcement::begin_stage(const std::string &name, const bool first,
                                   const double power_before, State<2> &state,
-                                  dealii::Tensor<1, 2> *released) const
+                                  dealii::Tensor<1, 2> *released,
+                                  const NodeRecord<2> *nodes_before) const
   {
     if (bars.empty())
       return;
@@ -147,8 +148,10 @@ namespace quoin
       if ((is_new || now.installed) && lose_absent(bar, state, now) && released
           && now.installed)
       {
-        add_forces_on_present(bar, before, state, 1., released);
-        add_forces_on_present(bar, now, state, -1., released);
+        const NodeRecord<2> *const nodes = state.nodes.data();
+        add_forces_on_present(bar, before, nodes_before ? nodes_before : nodes,
+                              state, 1., released);
+        add_forces_on_present(bar, now, nodes, state, -1., released);
       }
       if (!is_new)
         continue;
@@ -185,11 +188,12 @@ namespace quoin
   }
 
   void Reinforcement::add_forces_on_present(const PlacedBar &bar, BarState now,
+                                            const NodeRecord<2> *nodes,
                                             const State<2> &state,
                                             const double factor,
                                             dealii::Tensor<1, 2> *force) const
   {
-    update_bar(bar, state.nodes.data(), now, false, false);
+    update_bar(bar, nodes, now, false, false);
     for (unsigned int i = 0; i < bar.nodes.size(); ++i)
       if (const unsigned int node = bar.nodes[i];
           node < node_map->n_owned()

@@ -77,12 +77,13 @@ namespace quoin
      * the @p first one also those that name none, and takes bars out of blocks
      * that are absent. The energy of pretension is external work. @p power: of
      * end_stage(). Adds to @p released, unless it is null, the forces that bars
-     * in such blocks no longer exert on nodes of this rank in others [N].
-     * Collective.
+     * in such blocks no longer exert on nodes of this rank in others [N], those
+     * of @p before: the nodes before blocks were taken away, which moves them;
+     * null: those of @p state. Collective.
      */
     void begin_stage(const std::string &name, bool first, double power,
-                     State<2> &state,
-                     dealii::Tensor<1, 2> *released = nullptr) const;
+                     State<2> &state, dealii::Tensor<1, 2> *released = nullptr,
+                     const NodeRecord<2> *before = nullptr) const;
 
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
@@ -117,9 +118,10 @@ namespace quoin
     BarDissipation update_bar(const PlacedBar &bar, const NodeRecord<2> *nodes,
                               BarState &state, bool is_static,
                               bool with_stiffness) const;
-    /** Adds @p factor times the forces of a bar on nodes of this rank in blocks
-        that are there. */
+    /** Adds @p factor times the forces of a bar, with @p nodes, on those of
+       this rank in blocks that are there. */
     void add_forces_on_present(const PlacedBar &bar, BarState now,
+                               const NodeRecord<2> *nodes,
                                const State<2> &state, double factor,
                                dealii::Tensor<1, 2> *force) const;
     void add_dowels(const PlacedBar &bar, const NodeRecord<2> *nodes,
