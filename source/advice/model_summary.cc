@@ -250,11 +250,20 @@ namespace quoin
   coarse_slender_blocks(const Parameters &parameters, const MeshReport &report,
                         const std::vector<unsigned int> &material_of_group)
   {
+    /** Part of the faces that is no joint, where a block bends freely. */
+    constexpr double most_free = 0.75;
     std::vector<const SlenderBlock *> result;
-    if (parameters.cells.kind == TriangleKind::plain)
-      for (const SlenderBlock &block : report.slender)
-        if (!parameters.model.materials[material_of_group[block.group]].rigid)
-          result.push_back(&block);
+    if (parameters.cells.kind != TriangleKind::plain)
+      return result;
+    for (const SlenderBlock &block : report.slender)
+    {
+      double outer = 0.;
+      for (const auto &[name, size] : block.outer)
+        outer += size;
+      if (outer >= most_free * block.faces
+          && !parameters.model.materials[material_of_group[block.group]].rigid)
+        result.push_back(&block);
+    }
     return result;
   }
 

@@ -41,7 +41,7 @@ namespace quoin
                                       const NodeMap<dim> &nodes);
 
   /** The deformable blocks of @p report that are slender, of plain linear cells
-      of which few lie across them. */
+      of which few lie across them, and not bedded in joints. */
   std::vector<const SlenderBlock *>
   coarse_slender_blocks(const Parameters &parameters, const MeshReport &report,
                         const std::vector<unsigned int> &material_of_group);
