@@ -45,7 +45,7 @@ namespace quoin
     AlignedArray<std::uint8_t> handed_over;
     /** Slip and opening [m] that points had where a stage placed a block beside
         them, from which they count for laws, water and results; empty: none
-       did. */
+        did. */
     AlignedArray<double> placed_slip, placed_opening;
     /** Plastic slip that stands for a traction, of the initial stress or of
         another stiffness, and is none that the point has done [m]; empty: there

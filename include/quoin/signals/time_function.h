@@ -38,7 +38,7 @@ namespace quoin
     {
       return passed < duration ? duration - passed : 0.;
     }
-    /** The same growth from @p load_time of the stage on [s]. */
+    /** Returns this growth counted from @p load_time of the stage on [s]. */
     Growth after(const double load_time) const
     {
       const Growth later{ duration, passed + load_time };

@@ -88,10 +88,11 @@ def main():
     here = os.path.dirname(os.path.abspath(__file__))
     with open(os.path.join(here, "reference.csv"), "w") as stream:
         stream.write("plane [-],weak_plane [-],two_planes [-],"
-                     "weak_planes [-],crack [-]\n"
-                     "%.6f,%.6f,%.6f,%.6f,%.6f\n"
+                     "weak_planes [-],crack [-],stronger [-]\n"
+                     "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n"
                      % (plane(), plane(phi=18.5649, cohesion=8e3),
-                        two_planes(), two_planes(phi=19.2961), crack()))
+                        two_planes(), two_planes(phi=19.2961), crack(),
+                        plane(phi=60., cohesion=0.)))
 
 
 if __name__ == "__main__":
