@@ -55,6 +55,10 @@ namespace quoin
     pairs.clear();
     set_begin.assign(1, 0);
     least = least_joint_position(nodes);
+    // Where they fit, to ask for them costs some 4 % of the joints' time.
+    constexpr std::size_t cache_size = 1 << 20;
+    prefetches
+        = nodes.n_local() * (sizeof(NodeRecord<dim>) + bytes) > cache_size;
     // Pairs of the chunk.
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> known;
     unsigned int begin = 0;
@@ -193,7 +197,8 @@ namespace quoin
       face_nodes.load(chunk, nodes);
       for (unsigned int g = 0; g < chunk.n_groups; ++g)
       {
-        const auto &group  = groups[chunk.first_group + g];
+        const auto &group = groups[chunk.first_group + g];
+        face_nodes.prefetch(chunk.first_group + g);
         const Bits of_face = present(group, gone);
         if (!F::any(of_face))
           continue;

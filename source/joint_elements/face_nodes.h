@@ -7,6 +7,7 @@
 #include <quoin/base/lanes.h>
 #include <quoin/joint_elements/face_groups.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace quoin
@@ -21,8 +22,8 @@ namespace quoin
   class FaceNodes<2>
   {
   public:
-    FaceNodes(const FaceGroups<2> &, dealii::Tensor<1, 2> *const force)
-      : force(force)
+    FaceNodes(const FaceGroups<2> &groups, dealii::Tensor<1, 2> *const force)
+      : force(force), groups(groups), prefetches(groups.prefetches_nodes())
     {
     }
     void load(const FaceChunk &, const NodeRecord<2> *const positions)
@@ -37,9 +38,31 @@ namespace quoin
     {
     }
 
+    /** Prefetches nodes and forces of a group after that with @p index, by the
+        first vertices of its segments, as the second ones are next to them. */
+    QUOIN_INLINE void prefetch(const std::size_t index) const
+    {
+      if (!prefetches)
+        return;
+      constexpr std::size_t ahead = 24 / native_lanes;
+      const auto &group           = groups.group_at(index + ahead);
+      for (unsigned int l = 0; l < native_lanes; ++l)
+        for (const unsigned int side : { 0, 2 })
+        {
+          const std::size_t offset = group.nodes[side][l];
+          __builtin_prefetch(reinterpret_cast<const char *>(nodes)
+                             + 2 * offset);
+          __builtin_prefetch(reinterpret_cast<char *>(force) + offset, 1);
+        }
+    }
+
     const NodeRecord<2> *nodes           = nullptr;
     const dealii::Tensor<1, 2> *velocity = nullptr;
     dealii::Tensor<1, 2> *const force;
+
+  private:
+    const FaceGroups<2> &groups;
+    const bool prefetches;
   };
 
   /**
@@ -54,7 +77,8 @@ namespace quoin
   {
   public:
     FaceNodes(const FaceGroups<3> &groups, dealii::Tensor<1, 3> *const force)
-      : pairs(groups.node_pairs().data()), force(force)
+      : pairs(groups.node_pairs().data()), n_pairs(groups.node_pairs().size()),
+        prefetches(groups.prefetches_nodes()), force(force)
     {
       for (unsigned int d = 0; d < 3; ++d)
         origin[d] = groups.origin()[d];
@@ -77,6 +101,8 @@ namespace quoin
       for (unsigned int p = 0; p < chunk.n_pairs; ++p)
       {
         const NodePair &pair = pairs[chunk.first_pair + p];
+        if (prefetches)
+          prefetch(nodes, chunk.first_pair + p);
         const double *a = record(pair.lower), *b = record(pair.upper);
         const Row Xa = Lanes<4>::four(a), Xb = Lanes<4>::four(b);
         const Row ua = Lanes<4>::four(a + 2), ub = Lanes<4>::four(b + 2);
@@ -103,6 +129,11 @@ namespace quoin
         motions[p][0] = b - a;
         motions[p][1] = a + b;
       }
+    }
+
+    /** Nodes were prefetched as they were loaded. */
+    void prefetch(std::size_t) const
+    {
     }
 
     /** Gaps and sums of the pairs with @p offset; see FaceGroup. */
@@ -150,6 +181,25 @@ namespace quoin
     static constexpr unsigned int bytes_of_pair = 2 * sizeof(Row);
 
   private:
+    /** Prefetches the nodes of a pair after that with @p index, and the forces
+        on those of this one, which are added after the groups of the chunk. */
+    QUOIN_INLINE void prefetch(const NodeRecord<3> *const nodes,
+                               const std::size_t index) const
+    {
+      constexpr std::size_t ahead = 16;
+      const NodePair &later       = pairs[std::min(index + ahead, n_pairs - 1)];
+      for (const std::size_t offset : { later.lower, later.upper })
+      {
+        // Records can reach into the next line.
+        const char *record = reinterpret_cast<const char *>(nodes) + 2 * offset;
+        __builtin_prefetch(record);
+        __builtin_prefetch(record + sizeof(NodeRecord<3>) - 1);
+      }
+      const NodePair &pair = pairs[index];
+      for (const std::size_t offset : { pair.lower, pair.upper })
+        __builtin_prefetch(reinterpret_cast<char *>(force) + offset, 1);
+    }
+
     static QUOIN_INLINE void add(char *to, const Row &row)
     {
       double *f = reinterpret_cast<double *>(to);
@@ -158,6 +208,8 @@ namespace quoin
     }
 
     const NodePair *const pairs;
+    const std::size_t n_pairs;
+    const bool prefetches;
     dealii::Tensor<1, 3> *const force;
     Row origin{};
     alignas(64) Row motions[FaceChunk::most_pairs][2]; /**< gap, sum */

@@ -11,6 +11,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -81,9 +82,19 @@ namespace quoin
     void prepare(const std::vector<Face> &faces, unsigned int n_sets,
                  const NodeMap<dim> &nodes);
 
+    /** Group @p index, or the last one. */
+    const FaceGroup<dim, native_lanes> &group_at(const std::size_t index) const
+    {
+      return groups[std::min<std::size_t>(index, groups.size() - 1)];
+    }
     const std::vector<NodePair> &node_pairs() const
     {
       return pairs;
+    }
+    /** Whether nodes are prefetched, as they do not fit the cache of a core. */
+    bool prefetches_nodes() const
+    {
+      return prefetches;
     }
     /** A point near the joints, the same on all ranks, so that both ranks of a
         face compute the same numbers [m]. */
@@ -118,6 +129,7 @@ namespace quoin
     std::vector<FaceChunk> chunks;
     std::vector<unsigned int> set_begin; /**< first chunk of each set */
     std::vector<NodePair> pairs;         /**< of the chunks, in 3D */
+    bool prefetches = false;
     dealii::Point<dim> least;
   };
 } // namespace quoin
