@@ -11,6 +11,7 @@ case may add a check of checks.py or wall_checks.py, which returns further
 errors. Each is bounded by its entry in "tolerances", or by "tolerance". The
 energy balance must close, and the run warn of nothing but what "warnings" says.
 """
+import importlib
 import json
 import os
 import sys
@@ -21,7 +22,6 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import checks  # noqa: E402
 import common  # noqa: E402
-import wall_checks  # noqa: E402
 from common import Failure  # noqa: E402
 
 
@@ -88,6 +88,14 @@ def most_linear_iterations(output):
     return np.max(rows["linear iterations"])
 
 
+def check_of(name):
+    """The function of checks.py or wall_checks.py. The latter takes half a second to
+    load, with all that draws figures, which hundreds of cases do without."""
+    if hasattr(checks, name):
+        return getattr(checks, name)
+    return getattr(importlib.import_module("wall_checks"), name)
+
+
 def run_case(case, options):
     name = case["name"]
     results = common.begin(options, name)
@@ -108,9 +116,7 @@ def run_case(case, options):
         extra = {}
         if "check" in case:
             case["quoin"] = options.quoin
-            room = checks if hasattr(checks, case["check"]) else wall_checks
-            extra = getattr(room, case["check"])(case, folder, output,
-                                                 histories)
+            extra = check_of(case["check"])(case, folder, output, histories)
         iterations = ("iterations a step" in case
                       and iterations_a_step(output))
         linear = ("linear iterations" in case
