@@ -101,7 +101,10 @@ CASES = {
                                   ["Stages/slide/Duration=0.02"]),
     "pattern": of_ranks("pattern", ALL),
     "pattern, named": of_ranks("pattern, named", UP),
-    "safety": (WEDGES, ["Histories/Interval=1e-2",
+    # four trials: what the factors nearest to failure take, hundreds of thousands of
+    # steps, each of which waits for the other ranks, shows no more
+    "safety": (WEDGES, ["Rock/Element size=3", "Stages/safety/Factor tolerance=0.2",
+                        "Histories/Interval=1e-2",
                         "Stages/Names=settle, safety, rest",
                         "Stages/rest/Duration=0.5",
                         "Stages/rest/Loads=gravity, held"], UP),
