@@ -41,7 +41,7 @@ namespace quoin
       if ((type != "traction" && type != "prescribed motion")
           || !SpaceTimeFunction::names_place(text))
         return { quantity, time_function(section, name, text) };
-      // In two dimensions z is 0.
+      // Where there are two dimensions along_axes() refuses z.
       const auto function = section.made(
           name,
           [&]() { return SpaceTimeFunction(text, section.folder(), 3, true); });

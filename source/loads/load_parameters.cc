@@ -198,6 +198,19 @@ namespace quoin
             "at 0: let it rise from 0."));
   }
 
+  namespace
+  {
+    /** Refuses an expression of z of the load @p name in the plane. */
+    [[noreturn]] void refuse_z(const std::string &name,
+                               const std::string &entry)
+    {
+      throw InputError("section 'Loads/" + name + "': '" + entry
+                       + "' depends on z, which is 0 all over a model in two "
+                         "dimensions, whose height is y. Write y for the "
+                         "height, or take a mesh of tetrahedra.");
+    }
+  } // namespace
+
   template <>
   LoadParameters LoadParameters::along_axes<2>() const
   {
@@ -226,6 +239,13 @@ namespace quoin
       throw InputError("section 'Loads/" + name
                        + "': 'Moving axis = z' does not exist in two "
                          "dimensions. Take x or y.");
+    const auto words = component_words(type);
+    const auto all   = functions();
+    for (unsigned int d = 0; d < words.size(); ++d)
+      if (all[d].field && all[d].field->depends_on_z())
+        refuse_z(name, words[d].name);
+    if (distribution && distribution->depends_on_z())
+      refuse_z(name, "Distribution");
     return *this;
   }
 
@@ -310,7 +330,7 @@ namespace quoin
       const std::string name = "Distribution", text = section.text(name);
       if (text == "1")
         return {};
-      // In two dimensions z is 0.
+      // Where there are two dimensions along_axes() refuses z.
       const auto factor = section.made(
           name, [&]() { return SpaceTimeFunction(text, section.folder(), 3); });
       if (factor.depends_on_time())

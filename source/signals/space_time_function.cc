@@ -76,6 +76,7 @@ namespace quoin
                        parser->value(dealii::Point<3>());
                      });
     on_place = mentions(text, "xyz");
+    on_z     = mentions(text, "z");
     on_time  = on_time || mentions(text, "tT");
     evaluate = [parser, has_total](dealii::Point<3> x, const TimePoint &time)
     {

@@ -67,6 +67,11 @@ namespace quoin
     {
       return !water_level && !uplift_diagram;
     }
+    /** Whether it is a function of z. */
+    bool depends_on_z() const
+    {
+      return function.depends_on_z();
+    }
     /** Whether it is a function that may change in time. */
     bool is_function_of_time() const
     {

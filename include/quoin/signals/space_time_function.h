@@ -61,6 +61,12 @@ namespace quoin
       return on_place;
     }
 
+    /** Whether it is an expression of z. */
+    bool depends_on_z() const
+    {
+      return on_z;
+    }
+
     /** Whether the value may change in time. */
     bool depends_on_time() const
     {
@@ -71,6 +77,7 @@ namespace quoin
     std::function<double(const dealii::Point<3> &, const TimePoint &)> evaluate
         = [](const dealii::Point<3> &, const TimePoint &) { return 0.; };
     bool on_place = false;
+    bool on_z     = false;
     bool on_time  = false;
   };
 } // namespace quoin

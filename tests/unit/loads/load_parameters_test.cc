@@ -182,3 +182,29 @@ TEST(LoadParameters, ComponentsAlongTheAxes)
   EXPECT_NE(refusal.find("'Lateral'"), std::string::npos) << refusal;
   EXPECT_NE(refusal.find("Loads/push"), std::string::npos) << refusal;
 }
+
+TEST(LoadParameters, HeightsInThePlaneAreNoZ)
+{
+  const std::string type = "set Type = traction\nset Boundary = top\n";
+  const auto says        = [&](const std::string &text)
+  {
+    const LoadParameters load = read(type + text + "\n");
+    load.along_axes<3>();
+    return message_of<InputError>([&]() { load.along_axes<2>(); });
+  };
+  for (const auto &[entry, text] :
+       { std::make_pair("'Pressure'", "set Pressure = 9810*max(0, 12 - z)"),
+         std::make_pair("'Horizontal'", "set Horizontal = z*t"),
+         std::make_pair("'Vertical'",
+                        "set Vertical = pulse half-sine 1 times z"),
+         std::make_pair("'Distribution'",
+                        "set Vertical = 1\nset Distribution = 1 - z/4") })
+  {
+    const std::string refusal = says(text);
+    EXPECT_NE(refusal.find(entry), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find("Loads/push"), std::string::npos) << refusal;
+  }
+  const std::string none = "nothing was thrown";
+  EXPECT_EQ(says("set Pressure = 9810*max(0, 12 - y)"), none);
+  EXPECT_EQ(says("set Pressure = water 12"), none);
+}
