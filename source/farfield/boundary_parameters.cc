@@ -8,6 +8,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/farfield/boundary_parameters.h>
+#include <quoin/signals/signal_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +35,13 @@ namespace quoin
       for (const std::string word : { "traction", "displacement" })
         if (text.rfind(word + " ", 0) == 0)
         {
-          traction_is_given = word == "traction";
-          value             = function(section, name, text.substr(word.size()));
+          traction_is_given       = word == "traction";
+          const std::string given = text.substr(word.size());
+          value                   = function(section, name, given);
+          const std::string why
+              = traction_is_given ? "" : other_motion_text(given, 0);
+          if (!why.empty())
+            section.fail(name, why + ".");
           return;
         }
       section.fail(name, "must begin with 'traction' or 'displacement', before "
@@ -313,6 +319,20 @@ namespace quoin
                      degree);
     }
 
+    /** Refuses a signal of another motion than 'Motion' says. */
+    void check_motion(const ParameterSection &section, const std::string &text,
+                      const IncidentWaveParameters &wave)
+    {
+      std::string why = other_motion_text(text, int(wave.n_integrations));
+      if (why.empty() || wave.type == IncidentWaveType::line_source)
+        return;
+      for (const int derivative : { 0, 1, 2 })
+        if (other_motion_text(text, derivative).empty())
+          why += ", or give it as 'Signal' with 'Motion = "
+                 + motion_word(derivative) + "'";
+      section.fail(wave.signal_entry, why + ".");
+    }
+
     void enter_wave(ParameterEntries &entries, IncidentWaveParameters &wave)
     {
       using Type = IncidentWaveType;
@@ -359,6 +379,7 @@ namespace quoin
       wave.signal             = section->made(
                       wave.signal_entry,
                       [&]() { return TimeFunction(text, section->folder()).signal(); });
+      check_motion(*section, text, wave);
     }
 
     void check_box(const ParameterSection &section,

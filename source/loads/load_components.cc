@@ -3,12 +3,10 @@
 
 #include <quoin/loads/load_components.h>
 #include <quoin/loads/load_field.h>
-
-#include <boost/algorithm/string/case_conv.hpp>
+#include <quoin/signals/signal_text.h>
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -120,38 +118,15 @@ namespace quoin
       return { LoadQuantity::force, level, std::make_shared<LoadField>(level) };
     }
 
-    /** Refuses a record of the PEER database, whose name says what it is, as
-        the quantity that is once (velocity: 1) derived by time. */
-    void refuse_other_derivative(const ParameterSection &section,
-                                 const std::string &name,
-                                 const std::string &text, const int derivative)
+    /** Refuses a signal that is known to be another motion than that which is
+        once (velocity: 1) derived by time. */
+    void refuse_other_motion(const ParameterSection &section,
+                             const std::string &name, const std::string &text,
+                             const int derivative)
     {
-      constexpr std::array<const char *, 3> kinds
-          = { "displacement", "velocity", "acceleration" };
-      std::istringstream words(text);
-      std::string word, file;
-      words >> word >> file;
-      const std::string end
-          = word == "record" ? boost::algorithm::to_lower_copy(
-                std::filesystem::path(file).extension().string())
-                             : "";
-      const int of_file = end == ".dt2"   ? 0
-                          : end == ".vt2" ? 1
-                          : end == ".at2" ? 2
-                                          : -1;
-      int integrated    = 0;
-      while (words >> word)
-        if (word == "integrated" && words >> word)
-          integrated = word == "once" ? 1 : word == "twice" ? 2 : 0;
-      if (of_file < 0 || of_file - integrated == derivative)
-        return;
-      const int missing = of_file - derivative;
-      section.fail(name, std::string("must be of ") + kinds[derivative]
-                             + ", but the file is of " + kinds[of_file] + ": "
-                             + (missing == 1   ? "take 'integrated once'."
-                                : missing == 2 ? "take 'integrated twice'."
-                                : missing == 0 ? "leave out 'integrated'."
-                                               : "take another file."));
+      const std::string why = other_motion_text(text, derivative);
+      if (!why.empty())
+        section.fail(name, why + ".");
     }
 
     int derivative_of(const LoadQuantity quantity)
@@ -189,8 +164,8 @@ namespace quoin
           LoadComponent made
               = made_component(section, name, quantity, function);
           if (quantity != LoadQuantity::force)
-            refuse_other_derivative(section, name, function,
-                                    derivative_of(quantity));
+            refuse_other_motion(section, name, function,
+                                derivative_of(quantity));
           return made;
         }
         known += " or begin with '" + word + "'";
@@ -236,7 +211,7 @@ namespace quoin
       }
     LoadComponent made = made_component(section, name, quantity, text);
     if (quantity != LoadQuantity::force || type == "gravity")
-      refuse_other_derivative(section, name, text, derivative_of(quantity));
+      refuse_other_motion(section, name, text, derivative_of(quantity));
     return made;
   }
 

@@ -30,13 +30,6 @@ namespace quoin
       return text;
     }
 
-    /** Extension of the file name, in capitals and without the dot. */
-    std::string extension(const std::string &file)
-    {
-      const std::size_t dot = file.rfind('.');
-      return dot == std::string::npos ? "" : upper(file.substr(dot + 1));
-    }
-
     /** Fortran may write D for E. */
     std::string with_c_exponent(std::string number)
     {
@@ -86,7 +79,7 @@ namespace quoin
         return 0.01;
       if (std::regex_search(header, std::regex("\\bM/S")))
         return 1.;
-      return extension(name) == "AT2" ? gravity : 0.01;
+      return file_extension(name) == "AT2" ? gravity : 0.01;
     }
 
     TimeTable read_peer(const std::string &name)
@@ -171,9 +164,15 @@ namespace quoin
     }
   } // namespace
 
+  std::string file_extension(const std::string &file)
+  {
+    const std::size_t dot = file.rfind('.');
+    return dot == std::string::npos ? "" : upper(file.substr(dot + 1));
+  }
+
   Record Record::read(const std::string &file)
   {
-    const std::string kind = extension(file);
+    const std::string kind = file_extension(file);
     const bool is_peer     = kind == "AT2" || kind == "VT2" || kind == "DT2";
     return Record(is_peer ? read_peer(file) : read_time_table(file));
   }

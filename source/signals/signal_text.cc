@@ -302,4 +302,40 @@ namespace quoin
     return words[0] == "record" ? read_record(words, folder)
                                 : read_synthetic(words);
   }
+
+  std::string motion_word(const int derivative)
+  {
+    return derivative == 0   ? "displacement"
+           : derivative == 1 ? "velocity"
+                             : "acceleration";
+  }
+
+  std::string other_motion_text(const std::string &text, const int derivative)
+  {
+    std::istringstream stream(text);
+    std::string word, file;
+    stream >> word;
+    const bool is_synthetic = word == "synthetic";
+    if (word == "record")
+      stream >> file;
+    const std::string end = file_extension(file);
+    const int of_source   = is_synthetic || end == "AT2" ? 2
+                            : end == "VT2"               ? 1
+                            : end == "DT2"               ? 0
+                                                         : -1;
+    int integrated        = 0;
+    while (stream >> word)
+      if (word == "integrated" && stream >> word)
+        integrated = word == "once" ? 1 : word == "twice" ? 2 : 0;
+    if (of_source < 0 || of_source - integrated == derivative)
+      return "";
+    const int missing = of_source - derivative;
+    return "must be of " + motion_word(derivative) + ", but "
+           + (is_synthetic ? "a synthetic record" : "the file") + " is of "
+           + motion_word(of_source) + ": "
+           + (missing == 1   ? "take 'integrated once'"
+              : missing == 2 ? "take 'integrated twice'"
+              : missing == 0 ? "leave out 'integrated'"
+                             : "take another file");
+  }
 } // namespace quoin

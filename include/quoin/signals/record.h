@@ -11,6 +11,10 @@
 
 namespace quoin
 {
+  /** Extension of the name of @p file, in capitals and without the dot; empty:
+      it has none. */
+  std::string file_extension(const std::string &file);
+
   /**
    * Baseline corrections. The record a has the integrals v and u, and the
    * duration T.

@@ -41,6 +41,18 @@ namespace quoin
    * is wrong, without naming section or parameter.
    */
   Signal read_signal(const std::string &text, const std::string &folder);
+
+  /**
+   * Why the signal in @p text is not that of a displacement derived @p
+   * derivative times by time (velocity: 1), and what to do, without a stop at
+   * the end; empty: nothing is known against it. It is known of records of the
+   * PEER database, whose names end in what they are of, and of synthetic ones,
+   * which are accelerations.
+   */
+  std::string other_motion_text(const std::string &text, int derivative);
+
+  /** The word for a displacement derived @p derivative times. */
+  std::string motion_word(int derivative);
 } // namespace quoin
 
 #endif

@@ -236,3 +236,37 @@ TEST(BoundaryParameters, IncidentWaves)
   EXPECT_NE(refused({ "Signal=t" }).find("one of them"), std::string::npos);
   EXPECT_NE(refused({ "Motion=velocity" }).find("'Signal'"), std::string::npos);
 }
+
+TEST(BoundaryParameters, RecordsOfAnotherMotion)
+{
+  const Case files(good);
+  std::ofstream(files.directory / "quake.AT2")
+      << "NPTS= 3, DT= .01 SEC\n0 0.1 0\n";
+  const auto refusal = [&](const std::vector<std::string> &settings)
+  { return message_of<InputError>([&] { files.read(settings); }); };
+  const std::string wave   = "Incident waves/sv/";
+  const std::string record = wave + "Signal=record quake.AT2";
+  const std::string none   = "nothing was thrown";
+
+  const std::string why = refusal({ wave + "Displacement=0", record });
+  EXPECT_NE(why.find("must be of displacement"), std::string::npos) << why;
+  EXPECT_NE(why.find("'Motion = acceleration'"), std::string::npos) << why;
+  EXPECT_EQ(refusal({ wave + "Displacement=0", record,
+                      wave + "Motion=acceleration" }),
+            none);
+  EXPECT_EQ(refusal({ wave + "Displacement=0", record + " integrated once",
+                      wave + "Motion=velocity" }),
+            none);
+  EXPECT_NE(refusal({ wave + "Displacement=record quake.AT2" })
+                .find("'Signal' with 'Motion = acceleration'"),
+            std::string::npos);
+
+  const std::string surface = "Boundary elements/surface/Horizontal=";
+  EXPECT_NE(refusal({ surface + "displacement record quake.AT2" })
+                .find("'integrated twice'"),
+            std::string::npos);
+  EXPECT_EQ(
+      refusal({ surface + "displacement record quake.AT2 integrated twice" }),
+      none);
+  EXPECT_EQ(refusal({ surface + "traction record quake.AT2" }), none);
+}

@@ -180,6 +180,34 @@ TEST(Signal, Synthetic)
   EXPECT_NE(a.value(1.23), c.value(1.23));
 }
 
+TEST(Signal, OfAnotherMotion)
+{
+  constexpr int displacement = 0, velocity = 1, acceleration = 2;
+  for (const std::string text :
+       { "record a.at2", "synthetic frequency 3", "record b/A.AT2 delay 1" })
+  {
+    EXPECT_EQ(other_motion_text(text, acceleration), "") << text;
+    EXPECT_NE(other_motion_text(text, velocity).find("'integrated once'"),
+              std::string::npos);
+    EXPECT_NE(other_motion_text(text, displacement).find("'integrated twice'"),
+              std::string::npos);
+    EXPECT_EQ(other_motion_text(text + " integrated once", velocity), "");
+    EXPECT_EQ(other_motion_text(text + " integrated twice", displacement), "");
+    EXPECT_NE(other_motion_text(text + " integrated once", acceleration)
+                  .find("leave out 'integrated'"),
+              std::string::npos);
+  }
+  EXPECT_EQ(other_motion_text("record a.vt2", velocity), "");
+  EXPECT_NE(other_motion_text("record a.vt2", acceleration)
+                .find("of acceleration, but the file is of velocity"),
+            std::string::npos);
+  EXPECT_EQ(other_motion_text("record a.dt2 times 2", displacement), "");
+  for (const int derivative : { displacement, velocity, acceleration })
+    for (const std::string text :
+         { "record a.csv", "table a.at2", "wavelet Ricker 5", "3*t" })
+      EXPECT_EQ(other_motion_text(text, derivative), "") << text;
+}
+
 TEST(Signal, WrongTexts)
 {
   const std::vector<std::pair<std::string, std::string>> wrong
