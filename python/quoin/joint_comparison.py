@@ -11,16 +11,26 @@ NAMES = ("closed", "sliding", "open")
 MOST_AT_ONCE = 2e6                   # distances
 
 
+def inelastic_slip(joints, shear_stiffness):
+    """Slip of both ends of each face without its elastic part [m]: that of the
+    run, which knows of initial stresses and of stiffnesses that change; where
+    joints were handed over to contacts, and of runs that did not write it, by
+    @p shear_stiffness [Pa/m] of each joint set."""
+    ends, data = joints.cells, joints.point_data
+    stiffness = np.asarray(shear_stiffness)[joints.cell_data["joint set"]]
+    slip = data["slip"][ends] - data["shear traction"][ends] / stiffness[:, None]
+    if "inelastic slip" not in data:
+        return slip
+    is_over = joints.cell_data["handed over"] != 0
+    return np.where(is_over[:, None], slip, data["inelastic slip"][ends])
+
+
 def classes(joints, shear_stiffness, threshold):
     """Class of both ends of each face: open if the opening is above
-    @p threshold [m], else sliding if the slip without its elastic part, by
-    @p shear_stiffness [Pa/m] of each joint set, is, else closed."""
+    @p threshold [m], else sliding if the inelastic_slip() is, else closed."""
     joints = from_the_start(joints)
     ends = joints.cells
-    stiffness = np.asarray(shear_stiffness)[joints.cell_data["joint set"]]
-    slip = np.abs(joints.point_data["slip"][ends]
-                  - joints.point_data["shear traction"][ends]
-                  / stiffness[:, None])
+    slip = np.abs(inelastic_slip(joints, shear_stiffness))
     return np.where(joints.point_data["opening"][ends] > threshold, OPEN,
                     np.where(slip > threshold, SLIDING, CLOSED))
 

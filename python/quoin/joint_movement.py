@@ -5,7 +5,7 @@ contacts bear to which they were handed over, and what came after a time."""
 
 import numpy as np
 
-from quoin.joint_comparison import matched
+from quoin.joint_comparison import inelastic_slip, matched
 from quoin.joint_states import INTACT
 from quoin.vtu import Grid, from_the_start
 
@@ -97,8 +97,8 @@ def blocks_since(blocks, then):
 def moved_since(joints, then, shear_stiffness):
     """The joints of a moment with what came after @p then, another field of
     the run: displacements, slips, tractions, and openings as far as they are
-    beyond zero; and how far each end of a face opened or, apart from elastic
-    slip by @p shear_stiffness [Pa/m] of each joint set, slipped meanwhile [m].
+    beyond zero; and how far each end of a face opened or, by its
+    inelastic_slip(), slipped meanwhile [m].
     Faces that were not there at @p then, None if there were none, count from
     zero.
     """
@@ -118,13 +118,10 @@ def moved_since(joints, then, shear_stiffness):
     data["opening"] = (np.maximum(joints.point_data["opening"], 0.0)
                        - np.maximum(before["opening"], 0.0))
 
-    ends = joints.cells
-    stiffness = np.asarray(shear_stiffness)[joints.cell_data["joint set"]]
-    elastic = data["shear traction"][ends] / stiffness[:, None]
-    slip = data["slip"][ends] - elastic
-    return (Grid(joints.time, joints.points, joints.cells, data,
-                 joints.cell_data),
-            np.maximum(data["opening"][ends], np.abs(slip)))
+    moved = Grid(joints.time, joints.points, joints.cells, data,
+                 joints.cell_data)
+    slip = np.abs(inelastic_slip(moved, shear_stiffness))
+    return moved, np.maximum(data["opening"][joints.cells], slip)
 
 
 def since(joints, then, shear_stiffness, largest=None):

@@ -5,6 +5,7 @@
 #include <quoin/blocks/cell_states.h>
 #include <quoin/contact/law_fields.h>
 #include <quoin/joint_elements/joint_changes.h>
+#include <quoin/joints/point_arrays.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/results/field_output.h>
 #include <quoin/results/result_origin.h>
@@ -109,6 +110,8 @@ namespace quoin
       for (const char *name : { "water pressure", "hydraulic aperture", "flow",
                                 "flow velocity", "saturation" })
         fields.of_laws.push_back({ name, {} });
+    const std::size_t n_given = fields.of_laws.size();
+    fields.of_laws.push_back({ "inelastic slip", {} });
     for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
     {
       const auto &segment = model.joints().segments()[i];
@@ -142,11 +145,16 @@ namespace quoin
           fields.earlier_slip.push_back(origin->slip[p]);
         fields.normal_traction.push_back(history.normal_traction[p]);
         fields.shear_traction.push_back(history.shear_traction[p]);
-        for (unsigned int f = 0; f < fields.of_laws.size(); ++f)
+        for (unsigned int f = 0; f < n_given; ++f)
           fields.of_laws[f].second.push_back(
               f < law_names.size()
                   ? law_field(model.joints(), law_names[f], p, history)
                   : flow_value(model, *water, p, f - law_names.size()));
+        // Without the elastic part, that of initial stresses, too; the law of a
+        // joint that has become a contact no longer follows it.
+        fields.of_laws.back().second.push_back(
+            history.handed_over[i] ? gaps[k][1]
+                                   : plastic_slip_done(history, p));
         // Its contact carries forces from then on; the law has it as open.
         fields.state.push_back(history.handed_over[i] && gaps[k][0] <= 0.
                                    ? JointState::slipped
@@ -295,7 +303,7 @@ namespace quoin
     if constexpr (dim == 2)
     {
       const double of_joint_point
-          = 2 * 3 * 8 + 4 * 8 + 1 + 8 * law_field_names(model.joints()).size();
+          = 2 * 3 * 8 + 5 * 8 + 1 + 8 * law_field_names(model.joints()).size();
       constexpr double of_joint = 1 + 4 + 1 + 8 + 2 * 4 + 4 + 1;
       const auto &faces         = model.nodes().faces().joints;
       for (unsigned int i = 0; i < model.joints().segments().size(); ++i)

@@ -179,6 +179,21 @@ class Joints(unittest.TestCase):
         found = joint_comparison.classes(grid, [1e9], 1e-4)
         self.assertEqual(found[0].tolist(), [2, 0])
 
+    def test_slip_of_initial_stresses_is_elastic(self):
+        """What the run says counts, and not the stiffness of a set, but for
+        joints that have become contacts."""
+        grid = joint_grid(self.opening, self.slip)
+        n = len(grid.points)
+        grid.point_data["opening"] = np.zeros(n)
+        grid.point_data["slip"] = np.zeros(n)
+        grid.point_data["shear traction"] = np.full(n, 1e6)
+        found = joint_comparison.classes(grid, [1e9], 1e-4)
+        self.assertEqual(found.tolist(), [[1, 1]] * 3)
+        grid.point_data["inelastic slip"] = np.zeros(n)
+        grid.cell_data["handed over"] = np.array([0, 0, 1])
+        found = joint_comparison.classes(grid, [1e9], 1e-4)
+        self.assertEqual(found.tolist(), [[0, 0], [0, 0], [1, 1]])
+
     def test_faces_in_another_order(self):
         first = joint_grid(self.opening, self.slip)
         second = joint_grid(self.opening, self.slip, [2, 0, 1], turned=[0])

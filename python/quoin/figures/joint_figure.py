@@ -12,6 +12,7 @@ import numpy as np
 from quoin import colours, run_parameters
 from quoin.csv_table import scale_for, with_unit
 from quoin.figures.stress_figure import cell_areas, round_near
+from quoin.joint_comparison import inelastic_slip
 from quoin.joint_states import INTACT, NAMES, OPEN, SLIPPED, SLIPPING
 from quoin.shared_motion import enlarged
 from quoin.vtu import from_the_start
@@ -101,7 +102,7 @@ def crack_modes(joints, shear_stiffness, peak_crushing):
     A face is crushed once its plastic closing is beyond that at the
     compressive strength of its set, @p peak_crushing [m]; otherwise it opens
     or slips, whichever is more. Faces that never failed have no width, and
-    slip without its elastic part, by @p shear_stiffness [Pa/m], is what counts.
+    inelastic_slip(), by @p shear_stiffness [Pa/m], is what counts.
     """
     joints = from_the_start(joints)
     of_set = joints.cell_data["joint set"]
@@ -110,8 +111,7 @@ def crack_modes(joints, shear_stiffness, peak_crushing):
         return joints.point_data[name][joints.cells].mean(axis=1)
 
     opening = np.maximum(mean("opening"), 0.0)
-    slip = np.abs(mean("slip") - mean("shear traction")
-                  / np.asarray(shear_stiffness)[of_set])
+    slip = np.abs(inelastic_slip(joints, shear_stiffness).mean(axis=1))
     mode = np.where(opening >= slip, TENSION, SHEAR)
     width = np.maximum(opening, slip)
     if "crushing" in joints.point_data:

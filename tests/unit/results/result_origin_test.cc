@@ -89,6 +89,33 @@ TEST(ResultOrigin, FieldsCountFromItAndStandWhereTheBlocksAre)
   }
 }
 
+TEST(JointFields, TheInelasticSlipHasNothingOfInitialStresses)
+{
+  MovedBlocks blocks;
+  const auto inelastic = [&]()
+  {
+    const auto fields = joint_fields(blocks.run.model, blocks.state).of_laws;
+    EXPECT_EQ(fields.back().first, "inelastic slip");
+    return fields.back().second;
+  };
+  const double none = 0.;
+  for (const double slip : inelastic())
+    EXPECT_EQ(slip, none);
+  const JointFaceStress<2> stress
+      = { { { { 0., -2e6, 1e6 } }, { { 0., -2e6, 1e6 } } } };
+  const auto &joints = blocks.run.model.joints();
+  initialise_joints(joints, { joints.segments().size(), stress }, blocks.state);
+  JointHistory &history = blocks.state.get<JointHistory>();
+  ASSERT_NE(history.plastic_slip[0], none);
+  for (const double slip : inelastic())
+    EXPECT_EQ(slip, none);
+
+  history.plastic_slip[0] += 0.125;
+  EXPECT_DOUBLE_EQ(inelastic()[0], 0.125);
+  history.handed_over[0] = 1;
+  EXPECT_DOUBLE_EQ(std::abs(inelastic()[0]), 0.25);
+}
+
 TEST(ResultOrigin, ABlockThatComesAgainCountsFromTheMesh)
 {
   MovedBlocks blocks;
