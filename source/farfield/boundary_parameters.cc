@@ -380,6 +380,11 @@ namespace quoin
                       wave.signal_entry,
                       [&]() { return TimeFunction(text, section->folder()).signal(); });
       check_motion(*section, text, wave);
+      if (TimeFunction::names_total(text))
+        section->fail(wave.signal_entry,
+                      "depends on T, the time of the run, but waves are "
+                      "functions of t alone, the time since the boundary "
+                      "elements began to act. Write t.");
     }
 
     void check_box(const ParameterSection &section,

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <regex>
 
 namespace quoin
 {
@@ -94,6 +95,17 @@ namespace quoin
   bool TimeFunction::is_named(const std::string &text)
   {
     return text.rfind("table ", 0) == 0 || is_signal_text(text);
+  }
+
+  bool TimeFunction::names_total(const std::string &text)
+  {
+    const std::string trimmed = dealii::Utilities::trim(text);
+    const std::size_t times   = trimmed.find(" times ");
+    const std::size_t begin   = !is_named(trimmed)           ? 0
+                                : times == std::string::npos ? trimmed.size()
+                                                             : times + 7;
+    static const std::regex total("\\bT\\b");
+    return std::regex_search(trimmed.substr(begin), total);
   }
 
   Signal TimeFunction::signal() const

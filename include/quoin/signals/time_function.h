@@ -85,6 +85,9 @@ namespace quoin
     /** Whether @p text begins like a table or a signal. */
     static bool is_named(const std::string &text);
 
+    /** Whether the expression in @p text, which may be none, names T. */
+    static bool names_total(const std::string &text);
+
     double operator()(const TimePoint &time) const
     {
       return evaluate(time);

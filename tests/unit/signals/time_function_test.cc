@@ -49,6 +49,16 @@ TEST(TimeFunction, ExpressionsOfBothTimes)
                    1e6 * std::sin(0.4 * std::acos(-1.)) + std::exp(-0.7));
 }
 
+TEST(TimeFunction, NamesTheTotalTimeOrNot)
+{
+  for (const std::string text : { "T", " 2*T + t", "table T.csv times 3*T",
+                                  "pulse half-sine 1 times T" })
+    EXPECT_TRUE(TimeFunction::names_total(text)) << text;
+  for (const std::string text : { "", "t", "table T.csv", "table T.csv times t",
+                                  "record T.at2 delay 1", "wavelet Ricker 2" })
+    EXPECT_FALSE(TimeFunction::names_total(text)) << text;
+}
+
 TEST(TimeFunction, ConditionalExpression)
 {
   EXPECT_EQ(at("if(t < 1, 0, 1)", 0.9), 0.);
