@@ -41,6 +41,7 @@ namespace quoin
       point.plastic_opening = at_rest.plastic_opening + gap[0];
       point.plastic_slip
           = at_rest.plastic_slip + slip_since_placing(history, p, gap[1]);
+      law.take_over(point);
       move_elastic_origin(point.plastic_slip - before, n_points, history, p);
       write_point(point, history, p);
     }

@@ -213,6 +213,7 @@ namespace quoin
               point.plastic_slip
                   = at_rest.plastic_slip
                     + slip_since_placing(history, 3 * i + k, slip_of(gaps[k]));
+              law.take_over(point);
               move_elastic_origin(point.plastic_slip - before,
                                   joints.n_points(), history, 3 * i + k);
               write_point(point, history, 3 * i + k);

@@ -103,10 +103,10 @@ namespace quoin
    * where wear has left |tau| above tau_m. The joint dilates by tan(i) dp,
    * i = atan(|tau|/s) - phi, between zero and phi_m0 - phi.
    *
-   * Where the law is replaced by a weaker one, |tau| falls to tau_m at once, by
-   * plastic slip. By the rates alone it would wait for slip, and a joint at
-   * rest would bear more than its strength. Where the pressure falls it does
-   * wait.
+   * Where the law is replaced by a weaker one, or replaces that of Barton and
+   * Bandis, |tau| falls to tau_m at once, by plastic slip. By the rates alone
+   * it would wait for slip, and a joint at rest would bear more than its
+   * strength. Where the pressure falls it does wait.
    *
    * Slip against the traction unloads: it is elastic, F = 1, and beyond zero
    * loading begins with r = 0. Where slip is a vector, these rates are those of
@@ -176,6 +176,15 @@ namespace quoin
       point.shear_traction  = traction > 0. ? shear : Slip<dim>();
       point.plastic_opening = closure.closure(traction);
       point.plastic_slip    = -point.shear_traction / shear_stiffness(traction);
+    }
+
+    /** A point of another law has no phi_m: its |tau| falls to tau_m in the
+        next step if it is above that. */
+    template <int dim>
+    void take_over(RockPoint<dim> &point) const
+    {
+      if (point.friction == 0.)
+        point.friction = std::numeric_limits<double>::infinity();
     }
 
     /** phi_m [rad] after @p worn slip [m]. */

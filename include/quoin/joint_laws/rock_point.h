@@ -26,7 +26,8 @@ namespace quoin
     double worn_slip = 0.; /**< sum of |dp| while closed [m] */
     double dilated   = 0.; /**< part of w that reverse slip recovers [m] */
     double reload    = 0.; /**< |tau|/strength where loading began anew [-] */
-    double friction  = 0.; /**< tan(phi_m) at the end of the last step [-] */
+    /** tan(phi_m) at the end of the last step; 0: no law had it [-] */
+    double friction = 0.;
 
     static constexpr std::array<double RockPoint::*, 4> internal
         = { &RockPoint::worn_slip, &RockPoint::dilated, &RockPoint::reload,

@@ -222,6 +222,12 @@ namespace quoin
     void wear_out(Point &) const
     {
     }
+    /** What @p point, a closed joint that follows the law from a stage on and
+        may have followed another one of the kind, remembers for it. */
+    template <typename Point>
+    void take_over(Point &) const
+    {
+    }
     /** Quantities of a point for results. */
     template <int dim>
     static std::array<JointField<JointPoint<dim>>, 0> fields()

@@ -550,6 +550,41 @@ TEST(MatchedJoints, InitialStressOfRockJoints)
   }
 }
 
+TEST(MatchedJoints, AYieldingJointInPlaceOfARoughOneBearsItsStrengthAtMost)
+{
+  const double yy = -2e6, xy = 1.6e6;
+  JointSetParameters rough = elastic_joint(kn, ks), yielding = rough;
+  rough.law = rock_test::rough();
+  for (const double angle : { 50., 20. })
+  {
+    ContinuouslyYieldingLaw law = rock_test::yielding();
+    law.initial_angle           = angle * rock_test::degree;
+    law.residual_angle          = 0.75 * law.initial_angle;
+    yielding.law                = law;
+    Stack stack(2, 0., rough);
+    const JointFaceStress<2> uniform
+        = { { { { 0., yy, xy } }, { { 0., yy, xy } } } };
+    initialise_joints(stack.joints, { uniform, uniform }, stack.state);
+    stack.find_forces();
+    JointHistory &history = stack.state.get<JointHistory>();
+    ASSERT_NEAR(history.shear_traction[0], xy, 1e-3);
+    stack.joints.set_laws({ yielding });
+    keep_joint_tractions(stack.joints, stack.state);
+    for (unsigned int step = 0; step < 3; ++step)
+    {
+      stack.find_forces();
+      for (unsigned int p = 0; p < stack.joints.n_points(); ++p)
+      {
+        const auto point = read_point(law, history, p);
+        // By the pressure before the dilation of the fall.
+        const double largest
+            = -yy * std::tan(law.bounding_angle(point.worn_slip));
+        EXPECT_NEAR(point.shear_traction, std::min(xy, largest), 1e-6 * xy);
+      }
+    }
+  }
+}
+
 TEST(MatchedJoints, RockJointsAreBeyondTheirStrengthIfTheyCannotHold)
 {
   for (const JointLaw &law :
