@@ -314,7 +314,11 @@ namespace quoin
           if (!solver.take_blocks_outside().empty()
               || watch.has_failed(state.time, largest_displacement()))
             trial.verdict = Verdict::failing;
-          else if (share >= 1. && this->has_settled())
+          // Forces as small as those of an equilibrium may make blocks creep.
+          else if (share >= 1. && this->has_settled()
+                   && !watch.creeps(
+                       double(stage.maximum_steps - state.stage_step)
+                       * solver.get_time_step()))
           {
             judge_rest(watch.has_moved_on(), limit, trial);
             return;

@@ -209,6 +209,24 @@ namespace quoin
            || half >= growth * displacement_at(passed / 4.);
   }
 
+  bool FailureWatch::creeps(const double left) const
+  {
+    const std::size_t n = times.size();
+    if (n < 2)
+      return false;
+    const double interval = times[n - 1] - times[n - 2];
+    const double passed = times.back() - start, now = displacements.back();
+    const bool is_known = passed >= least_known * interval;
+    const double last   = is_known ? passed / 2. : interval;
+    const double moved  = now - displacement_at(passed - last);
+    if (now + moved / last * left <= limit)
+      return false;
+    if (!is_known)
+      return true;
+    const double before = displacement_at(passed - last) - displacement_at(0.);
+    return before + moved >= growth * before;
+  }
+
   double FailureWatch::displacement_at(const double time) const
   {
     const auto after

@@ -147,11 +147,22 @@ namespace quoin
       return moved_on;
     }
 
+    /**
+     * Whether a model that seems to be at rest creeps: its displacement since
+     * the start has grown by 1.8 times in the last doubling of the time, and at
+     * that rate it is beyond the limit within @p left, the time that is left to
+     * the trial. True while the time since the start is too short to tell but
+     * the last two displacements ask for it.
+     */
+    bool creeps(double left) const;
+
   private:
     /** The displacement at @p time since the start, interpolated [m]. */
     double displacement_at(double time) const;
 
     static constexpr double growth = 1.8;
+    /** Displacements since the start that show a trend. */
+    static constexpr double least_known = 8.;
     const double limit, start;
     bool moved_on = false;
     std::vector<double> times, displacements;

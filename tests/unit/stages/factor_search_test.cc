@@ -170,6 +170,27 @@ TEST(FailureWatch, WhatCollapsesLateHasFailed)
   EXPECT_TRUE(has_failed);
 }
 
+TEST(FailureWatch, WhatCreepsIsNotAtRest)
+{
+  // It settles by 0.1 m until t = 2, creeps by a millimetre a second from there
+  // on, or approaches an end, of which it knows after eight displacements.
+  FailureWatch creeps(1., 2.), approaches(1., 2.);
+  for (unsigned int i = 1; i <= 60; ++i)
+  {
+    const double t = 0.1 * i, since = std::max(0., t - 2.);
+    const double settled = 0.1 * std::min(1., t / 2.);
+    EXPECT_FALSE(creeps.has_failed(t, settled + 1e-3 * since));
+    EXPECT_FALSE(approaches.has_failed(
+        t, settled + 0.01 * (1. - std::exp(-since / 0.5))));
+    if (since < 0.15)
+      continue;
+    EXPECT_TRUE(creeps.creeps(1e4)) << t;
+    EXPECT_FALSE(creeps.creeps(100.)) << t << ": within the limit in the end";
+    const bool is_clear = since < 0.75 || since > 0.85;
+    EXPECT_TRUE(!is_clear || approaches.creeps(1e4) == (since < 0.8)) << t;
+  }
+}
+
 TEST(JumpWatch, RemembersEveryJump)
 {
   // The motion of FailureWatch.WhatIsCaughtFarAwayHasMovedOn in the first or
