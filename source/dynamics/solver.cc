@@ -154,6 +154,16 @@ namespace quoin
                                     : rest(load, growth.constraints[i]);
       all.constraints[i]->grow_forces(growth.constraints[i]);
     }
+    if constexpr (dim == 2)
+      if (all.beams)
+      {
+        growth.beams.resize(all.beams->all().size());
+        for (unsigned int b = 0; b < growth.beams.size(); ++b)
+          growth.beams[b] = all.beams->is_placed_by(b, stage.name, !previous)
+                                ? Growth{ with_it, 0. }
+                                : growth.beams[b].after(state.load_time);
+        all.beams->grow_loads(growth.beams);
+      }
   }
 
   template <int dim>
@@ -169,6 +179,9 @@ namespace quoin
     }
     for (std::size_t i = 0; i < all.constraints.size(); ++i)
       all.constraints[i]->grow_forces(growth.constraints[i]);
+    if constexpr (dim == 2)
+      if (all.beams)
+        all.beams->grow_loads(growth.beams);
   }
 
   template <int dim>

@@ -514,7 +514,7 @@ namespace quoin
             "joints "
             "that begin in the same stage grow with it, and, without initial "
             "stress, in a stage with 'End = static ratio' also tractions and "
-            "the forces on platens [s]");
+            "the forces on platens and on beams that the stage places [s]");
       if (entries.reads_if(is_force))
         entries.other(
             "Distribution", "1",

@@ -222,20 +222,20 @@ namespace quoin
   }
 
   std::vector<dealii::Tensor<1, 2>>
-  BeamLine::loads(const TimePoint &time,
+  BeamLine::loads(const TimePoint &time, const double grown,
                   const dealii::Tensor<1, 2> &acceleration) const
   {
     std::vector<Vector> result(places.size());
     for (unsigned int d = 0; d < acceleration.dimension; ++d)
     {
-      const double by_length = given.distributed[d](time)
+      const double by_length = grown * given.distributed[d](time)
                                + given.density * given.area * acceleration[d];
       for (unsigned int k = 0; k < result.size(); ++k)
         result[k][d] = rest[k].length * by_length;
       if (!is_closed)
       {
-        result.front()[d] += given.forces[0][d](time);
-        result.back()[d] += given.forces[1][d](time);
+        result.front()[d] += grown * given.forces[0][d](time);
+        result.back()[d] += grown * given.forces[1][d](time);
       }
       for (Vector &load : result)
         load[d] *= share;

@@ -184,7 +184,7 @@ namespace quoin
       const BeamLine &line = beams.all()[b].line;
       if (!now.placed[b])
         continue;
-      const auto loads = line.loads(step.begin, beams.gravity(step.begin));
+      const auto loads = beams.node_loads(b, step.begin);
       for (unsigned int i = line.begin; i < line.end; ++i)
       {
         const Vector &load = loads[i - line.begin];

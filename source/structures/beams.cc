@@ -224,12 +224,26 @@ namespace quoin
   std::vector<double> Beams::loads(const TimePoint &time) const
   {
     std::vector<double> result;
-    for (const auto &[line, interface] : beams)
-      for (const auto *parts : { &line.given.forces[0], &line.given.forces[1],
-                                 &line.given.distributed })
+    for (unsigned int b = 0; b < beams.size(); ++b)
+    {
+      const BeamParameters &given = beams[b].line.given;
+      for (const auto *parts :
+           { &given.forces[0], &given.forces[1], &given.distributed })
         for (const TimeFunction &part : *parts)
-          result.push_back(part(time));
+          result.push_back(grown(b, time) * part(time));
+    }
     return result;
+  }
+
+  double Beams::grown(const unsigned int b, const TimePoint &time) const
+  {
+    return load_growth.empty() ? 1. : load_growth[b].share(time.stage);
+  }
+
+  std::vector<dealii::Tensor<1, 2>>
+  Beams::node_loads(const unsigned int b, const TimePoint &time) const
+  {
+    return beams[b].line.loads(time, grown(b, time), gravity(time));
   }
 
   void Beams::add_forces(const StepContext &step, State<2> &state,
@@ -249,7 +263,7 @@ namespace quoin
         line.add_forces(now, lost, force.data());
         interface.add_forces(line, state, now, lost, force.data(),
                              by_point.data());
-        const auto loads = line.loads(step.begin, gravity(step.begin));
+        const auto loads = node_loads(b, step.begin);
         for (unsigned int i = line.begin; i < line.end; ++i)
           force[i] += loads[i - line.begin];
       }
@@ -282,8 +296,8 @@ namespace quoin
     for (unsigned int b = 0; b < beams.size(); ++b)
       if (now.placed[b]
           && !find_equilibrium(
-              beams[b], beams[b].line.loads(time, gravity(time)),
-              node_map.table().diagonal(), committed, now, energy,
+              beams[b], node_loads(b, time), node_map.table().diagonal(),
+              committed, now, energy,
               { by_point.data(), stiffness ? &(*stiffness)[b] : nullptr }))
         return beams[b].line.given.name;
     add_block_forces(by_point, block_force);

@@ -41,12 +41,13 @@ namespace quoin
 
     std::vector<Growth> nodal;       /**< of each of RunLoads::nodal */
     std::vector<Growth> constraints; /**< of the forces of each constraint */
+    std::vector<Growth> beams;       /**< of the loads of each beam */
     std::vector<PlacedGrowth> placed;
 
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
-      visitor.same(nodal, constraints, placed);
+      visitor.same(nodal, constraints, beams, placed);
     }
 
     template <typename Archive>

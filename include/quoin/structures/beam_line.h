@@ -93,10 +93,10 @@ namespace quoin
         beams and returns the sum of their sizes [N]. */
     double add_forces(BeamState &beams, EnergyAccounts &energy,
                       dealii::Tensor<1, 2> *force) const;
-    /** Loads of all nodes at @p time, weight by the @p acceleration [m/s^2]
-        included [N]. */
+    /** Loads of all nodes at @p time, @p grown of the given ones [-] and weight
+        by the @p acceleration [m/s^2], [N]. */
     std::vector<dealii::Tensor<1, 2>>
-    loads(const TimePoint &time,
+    loads(const TimePoint &time, double grown,
           const dealii::Tensor<1, 2> &acceleration) const;
 
     BeamParameters given;

@@ -54,8 +54,25 @@ namespace quoin
     void set_gravity(const std::vector<const NodalLoad<2> *> &loads);
     /** Acceleration of that gravity at @p time [m/s^2]. */
     dealii::Tensor<1, 2> gravity(const TimePoint &time) const;
+    /** Whether the beam @p b is placed where the stage @p name begins, the
+        @p first one of the run or not. */
+    bool is_placed_by(unsigned int b, const std::string &name, bool first) const
+    {
+      const std::string &stage = beams[b].line.given.stage;
+      return stage.empty() ? first : stage == name;
+    }
+    /** Lets the forces at the ends and along the line of each beam grow in the
+        stage as @p growth says; empty: they are there. */
+    void grow_loads(const std::vector<Growth> &growth)
+    {
+      load_growth = growth;
+    }
     /** Loads at @p time, numbers that change when they do. */
     std::vector<double> loads(const TimePoint &time) const;
+    /** Loads on the nodes of the beam @p b at @p time, its weight included [N].
+     */
+    std::vector<dealii::Tensor<1, 2>> node_loads(unsigned int b,
+                                                 const TimePoint &time) const;
 
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
@@ -89,6 +106,8 @@ namespace quoin
     }
 
   private:
+    /** Share of the given loads of the beam @p b at @p time [-]. */
+    double grown(unsigned int b, const TimePoint &time) const;
     /** Finds BeamState::block_position. Collective. */
     void find_block_positions(const State<2> &state, BeamState &now) const;
     /** Adds the opposite of @p by_point to owned nodes of blocks. */
@@ -101,6 +120,7 @@ namespace quoin
     unsigned int n_nodes = 0, n_points = 0, n_internal_variables = 0;
     std::vector<const NodalLoad<2> *> gravity_loads; /**< of the stage */
     AlignedArray<dealii::Tensor<1, 2>> force;
+    std::vector<Growth> load_growth; /**< of each beam; empty: all is there */
   };
 } // namespace quoin
 

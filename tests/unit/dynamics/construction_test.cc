@@ -485,6 +485,71 @@ TEST(Construction, EnergyOfLinersInEquilibriumIsAccountedFor)
   }
 }
 
+TEST(Construction, LoadsOfBeamsGrowWithTheWeight)
+{
+  // A beam that the first stage places and one of the second stage, in which
+  // weight still grows.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 8);
+  TestRun run(mesh, without_stress(),
+              { gravity("0", "-10"), motion("base", "bottom", "0", "0"),
+                motion("rollers", "sides", "0", "") });
+  std::vector<BeamParameters> beams(2);
+  for (BeamParameters &beam : beams)
+  {
+    beam.name           = "beam";
+    beam.points         = { { { 20., 0. } }, { { 22., 0. } } };
+    beam.n_segments     = 2;
+    beam.modulus        = 3e10;
+    beam.area           = 0.1;
+    beam.second_moment  = 1e-4;
+    beam.density        = 2400.;
+    beam.distributed[0] = TimeFunction("300", "./");
+    beam.forces[0][0]   = TimeFunction("70", "./");
+  }
+  beams[1].stage           = "second";
+  run.solver.loads().beams = std::make_unique<Beams>(
+      beams, run.nodes, std::vector<JointSetParameters>{}, 1.,
+      run.model.thickness());
+  std::vector<StageParameters> stages = { stage_of({}, {}), stage_of({}, {}) };
+  for (StageParameters &stage : stages)
+  {
+    stage.loads = { "gravity", "base", "rollers" };
+    stage.end   = StageEnd::static_ratio;
+  }
+  stages[0].name = "first";
+  stages[1].name = "second";
+  run.solver.prepare(run.state);
+  run.begin(stages[0]);
+  const double quiet = run.solver.quiet_time();
+  const auto load_at = [&](const unsigned int beam, const double time)
+  {
+    double sum = 0.; // along x, without weight
+    for (const auto &load : run.solver.loads().beams->node_loads(
+             beam, { time, run.state.load_start() + time }))
+      sum += load[0];
+    return sum;
+  };
+  EXPECT_NEAR(load_at(0, 0.), 0., 1e-9);
+  EXPECT_NEAR(load_at(0, 0.5 * quiet), 335., 1e-9);
+  EXPECT_NEAR(load_at(0, quiet), 670., 1e-9);
+  // What is left grows in the next stage, with the weight, and so do the loads
+  // of a beam that it places; after a resumption, too.
+  while (run.state.load_time < 0.3 * quiet)
+    run.solver.step(run.state, {});
+  const double before = load_at(0, run.state.load_time);
+  EXPECT_NEAR(before, half_cosine(0.3 * quiet, quiet) * 670., 7.);
+  run.begin(stages[1], 0.8, &stages[0]);
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    EXPECT_NEAR(load_at(0, 0.), before, 1e-9);
+    EXPECT_NEAR(load_at(0, 0.8 * quiet), 670., 1e-9);
+    EXPECT_NEAR(load_at(1, 0.), 0., 1e-9);
+    EXPECT_NEAR(load_at(1, 0.8 * quiet), 670., 1e-9);
+    run.solver.resume_stage(stages[1], &stages[0], run.state);
+  }
+}
+
 TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
 {
   BlockMesh<2> mesh;
