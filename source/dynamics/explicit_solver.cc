@@ -397,8 +397,7 @@ namespace quoin
   }
 
   template <int dim>
-  void ExplicitSolver<dim>::grow_on_placed(const State<dim> &state,
-                                           const double start)
+  void ExplicitSolver<dim>::grow_on_placed(const State<dim> &state)
   {
     const NodeMap<dim> &nodes = model.nodes();
     acting.arrival            = {};
@@ -412,8 +411,7 @@ namespace quoin
         if (std::binary_search(each.blocks.begin(), each.blocks.end(),
                                nodes.block_of_node(i)))
           placed.push_back(i);
-      acting.arrival.add(placed, loads, { 0., start }, nodes.n_local(),
-                         each.growth);
+      acting.arrival.add(placed, loads, nodes.n_local(), each.growth);
     }
     if constexpr (dim == 2)
       if (all.water)
@@ -442,7 +440,7 @@ namespace quoin
                        release_duration(state));
     this->begin_growth(previous, automatic_ramp(), state);
     begin_arrival(previous, state);
-    grow_on_placed(state, state.next_load_start());
+    grow_on_placed(state);
     collect_operators(previous);
     for (const auto &constraint : all.constraints)
       if (!all.acts_in(*constraint, stage))
@@ -480,7 +478,7 @@ namespace quoin
         = Release<dim>(state, stage.releases_linearly.value_or(false),
                        release_duration(state));
     this->resume_growth(previous, state);
-    grow_on_placed(state, state.load_start());
+    grow_on_placed(state);
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->resume_stage(state);
     state = saved;

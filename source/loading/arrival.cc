@@ -10,21 +10,26 @@ namespace quoin
   template <int dim>
   void Arrival<dim>::add(const std::vector<unsigned int> &placed,
                          const std::vector<const NodalLoad<dim> *> &loads,
-                         const TimePoint &start, const std::size_t n_local,
-                         const Growth &growth)
+                         const std::size_t n_local, const Growth &growth)
   {
+    parts.push_back({ placed, loads, n_local, growth, {}, {} });
+  }
+
+  template <int dim>
+  void Arrival<dim>::Part::find_forces(const TimePoint &time) const
+  {
+    std::vector<std::array<double, 5>> now;
+    for (const NodalLoad<dim> *load : loads)
+      now.push_back(load->amplitude(time));
+    if (forces.size() == nodes.size() && now == amplitudes)
+      return;
+    amplitudes = std::move(now);
     AlignedArray<dealii::Tensor<1, dim>> all(n_local, dealii::Tensor<1, dim>());
     for (const NodalLoad<dim> *load : loads)
-      load->add_loads(start, all.data());
-    Part part;
-    part.growth = growth;
-    for (const unsigned int node : placed)
-      if (all[node] != dealii::Tensor<1, dim>())
-      {
-        part.nodes.push_back(node);
-        part.forces.push_back(all[node]);
-      }
-    parts.push_back(std::move(part));
+      load->add_loads(time, all.data());
+    forces.clear();
+    for (const unsigned int node : nodes)
+      forces.push_back(all[node]);
   }
 
   template <int dim>
@@ -54,6 +59,7 @@ namespace quoin
       const double lacking = 1. - part.growth.share(time.stage);
       if (lacking == 0.)
         continue;
+      part.find_forces(time);
       for (std::size_t i = 0; i < part.nodes.size(); ++i)
         force[part.nodes[i]] -= lacking * part.forces[i];
     }
@@ -70,6 +76,7 @@ namespace quoin
       const double lacking = 1. - part.growth.share(time.stage);
       if (lacking == 0.)
         continue;
+      part.find_forces(time);
       double power = 0.;
       for (std::size_t i = 0; i < part.nodes.size(); ++i)
         power += part.forces[i] * velocity[part.nodes[i]];

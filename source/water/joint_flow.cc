@@ -296,10 +296,24 @@ namespace quoin
       if (!state.is_absent(lower) && !state.is_absent(upper)
           && std::count(blocks.begin(), blocks.end(), lower)
                  != std::count(blocks.begin(), blocks.end(), upper))
-        add_forces_in(c, water, sum);
+      {
+        std::map<unsigned int, dealii::Tensor<1, 2>> whole;
+        add_forces_in(c, water, whole);
+        const double grown = share_in(c, state.load_time);
+        for (const auto &[node, part] : whole)
+          sum[node] += grown * part;
+      }
     }
     for (const auto &[node, part] : sum)
       force[node] += part;
+  }
+
+  double JointFlow::share_in(const unsigned int c, const double load_time) const
+  {
+    for (const GrowingForces &part : growing)
+      if (part.has[c])
+        return part.given.growth.share(load_time);
+    return 1.;
   }
 
   void JointFlow::Forces::set(

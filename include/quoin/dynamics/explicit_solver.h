@@ -180,9 +180,8 @@ namespace quoin
     void begin_arrival(const StageParameters *previous,
                        State<dim> &state) const;
     /** Lets loads and the forces of water in joints grow on placed blocks in
-       the stage of @p state, which begins at @p start by the clock of loads
-       [s]. */
-    void grow_on_placed(const State<dim> &state, double start);
+       the stage of @p state. */
+    void grow_on_placed(const State<dim> &state);
     /** Blocks of this rank that loads of this or a later stage move. */
     void find_moved_blocks(const State<dim> &state);
     /** Tells joints and contacts what their dashpots need of the blocks and of

@@ -15,9 +15,9 @@ namespace quoin
   /**
    * What lets the loads on blocks that a stage places grow from zero by half a
    * cosine s(t) of load time, as gravity that begins there does: beside these
-   * loads act the forces (s - 1) F, F being those of the loads that go on from
-   * the stage before, where the stage begins. A stage that ends before they
-   * are there leaves the rest of the growth to the next one.
+   * loads act the forces (s - 1) F(t), F being those of the loads that go on
+   * from the stage before. A stage that ends before they are there leaves the
+   * rest of the growth to the next one.
    */
   template <int dim>
   class Arrival : public ForceOperator<dim>
@@ -25,12 +25,11 @@ namespace quoin
   public:
     Arrival() = default;
 
-    /** Lets @p loads on the owned nodes @p placed, with the forces that they
-        have at the time @p start of the stage, grow as @p growth says;
-        @p n_local: number of local nodes. */
+    /** Lets @p loads, to which it keeps pointers, grow on the owned nodes
+        @p placed as @p growth says; @p n_local: number of local nodes. */
     void add(const std::vector<unsigned int> &placed,
              const std::vector<const NodalLoad<dim> *> &loads,
-             const TimePoint &start, std::size_t n_local, const Growth &growth);
+             std::size_t n_local, const Growth &growth);
 
     /** How long the growth takes from the start of the stage on [s]; 0: nothing
         grows. */
@@ -52,9 +51,16 @@ namespace quoin
     /** Forces of one growth. */
     struct Part
     {
-      std::vector<unsigned int> nodes;            /**< of this rank */
-      std::vector<dealii::Tensor<1, dim>> forces; /**< F of each of them [N] */
+      std::vector<unsigned int> nodes; /**< of this rank */
+      std::vector<const NodalLoad<dim> *> loads;
+      std::size_t n_local;
       Growth growth;
+      /** F of each node [N], with these amplitudes of the loads. */
+      mutable std::vector<dealii::Tensor<1, dim>> forces;
+      mutable std::vector<std::array<double, 5>> amplitudes;
+
+      /** Brings them to @p time. */
+      void find_forces(const TimePoint &time) const;
     };
     std::vector<Part> parts;
   };

@@ -190,6 +190,9 @@ namespace quoin
         nodes. */
     void add_forces_in(unsigned int c, const JointFlowState &water,
                        std::map<unsigned int, dealii::Tensor<1, 2>> &sum) const;
+    /** Share of the forces in the channel @p c that acts at @p load_time of the
+        stage [s], [-]. */
+    double share_in(unsigned int c, double load_time) const;
     /** Forces of the pressures of now. */
     void find_forces();
 

@@ -328,6 +328,47 @@ TEST(Construction, LoadsGoOnGrowingAfterAStageThatEndsEarly)
   }
 }
 
+TEST(Construction, LoadsThatChangeDoNotJumpWhereAStageEndsEarly)
+{
+  // Gravity that rises with the time of the run, on a block that is placed.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 8);
+  TestRun run(mesh, without_stress(),
+              { gravity("0", "-10*(1+50*T)"),
+                motion("base", "bottom", "0", "0"),
+                motion("rollers", "sides", "0", "") });
+  std::vector<StageParameters> stages
+      = { stage_of({ "upper" }, {}), stage_of({}, { "upper" }),
+          stage_of({}, {}) };
+  for (StageParameters &stage : stages)
+  {
+    stage.loads = { "gravity", "base", "rollers" };
+    stage.end   = StageEnd::static_ratio;
+  }
+  Construction construction(run.model, stages);
+  construction.begin_stage(0, run.solver, run.state);
+  construction.begin_stage(1, run.solver, run.state);
+  run.begin(stages[1], 0.8, &stages[0]);
+  const double quiet = run.solver.quiet_time(), full = -10. * 2500. * 8. * 0.5;
+  while (run.state.load_time < 0.4 * quiet)
+    run.solver.step(run.state, {});
+  const double share  = half_cosine(run.state.load_time, quiet);
+  const double before = weight_of(run, 1, run.state.load_time);
+  EXPECT_NEAR(before, share * (1. + 50. * run.state.time) * full,
+              1e-9 * std::abs(full));
+  // Their power is that of the forces.
+  const AlignedArray<dealii::Tensor<1, 2>> down(run.state.nodes.size(),
+                                                dealii::Point<2>(0., -1.));
+  const TimePoint now{ run.state.load_time, run.state.time };
+  const StageLoads<2> &loads = run.solver.stage_loads();
+  const auto all_of_it       = loads.nodal[0]->external_power(now, down.data());
+  EXPECT_NEAR(loads.arrival.external_power(now, down.data()),
+              (share - 1.) / 2. * all_of_it, 1e-9 * std::abs(full));
+  construction.begin_stage(2, run.solver, run.state);
+  run.begin(stages[2], 0.8, &stages[1]);
+  EXPECT_NEAR(weight_of(run, 1, 0.), before, 1e-9 * std::abs(full));
+}
+
 TEST(Construction, LoadsInEquilibriumGoOnGrowingInTheNextStage)
 {
   BlockMesh<2> mesh;
@@ -405,6 +446,14 @@ TEST(Construction, WaterAtPlacedBlocksGrowsAsTheirWeight)
   }
   EXPECT_NEAR(sum, -0.5 * lift, 1e-9 * lift);
   EXPECT_NEAR(water.external_power(half, velocity.data()), -lift, 1e-9 * lift);
+  // An excavation that comes so early holds what it has borne there.
+  run.state.load_time = half.stage;
+  std::fill(force.begin(), force.end(), dealii::Tensor<1, 2>());
+  water.add_forces_between({ 1 }, run.state, force.data());
+  sum = 0.;
+  for (std::size_t i = lower.begin; i < lower.end; ++i)
+    sum += force[i][1];
+  EXPECT_NEAR(sum, -0.5 * lift, 1e-9 * lift);
 }
 
 namespace
