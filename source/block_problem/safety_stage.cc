@@ -448,18 +448,30 @@ namespace quoin
       if constexpr (dim == 2)
         if (const BlockContacts *contacts = system.model->contacts())
           energy += stored_energy(base, *contacts);
-      AlignedArray<dealii::Tensor<1, dim>> forces(base.nodes.size(),
-                                                  dealii::Tensor<1, dim>());
-      for (const NodalLoad<dim> *load : system.solver->stage_loads().nodal)
-        load->add_loads({ 0., base.next_load_start() }, forces.data());
-      model.nodes().exchange().add_to_owners(forces.data());
-      const auto absent = absent_nodes(model, base);
-      double force      = 0.;
-      for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-        if (!absent[i])
-          force += forces[i].norm();
+      const StageLoads<dim> &loads = system.solver->stage_loads();
+      const auto absent            = absent_nodes(model, base);
+      const auto force_at          = [&](const double load_time)
+      {
+        const TimePoint time{ load_time, base.next_load_start() + load_time };
+        AlignedArray<dealii::Tensor<1, dim>> forces(base.nodes.size(),
+                                                    dealii::Tensor<1, dim>());
+        for (const NodalLoad<dim> *load : loads.nodal)
+          load->add_loads(time, forces.data());
+        loads.arrival.add_loads(time, forces.data());
+        model.nodes().exchange().add_to_owners(forces.data());
+        double sum = 0.;
+        for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+          if (!absent[i])
+            sum += forces[i].norm();
+        return dealii::Utilities::MPI::sum(sum, context.run.communicator);
+      };
       energy = dealii::Utilities::MPI::sum(energy, context.run.communicator);
-      force  = dealii::Utilities::MPI::sum(force, context.run.communicator);
+      const double force = force_at(0.);
+      // Loads that still grow will displace the model in proportion.
+      const double growth   = loads.growth();
+      const double grown    = force > 0. && growth > 0.
+                                  ? std::max(1., force_at(growth) / force)
+                                  : 1.;
       const double diagonal = system.nodes->table().diagonal();
       double least          = 0.;
       for (const JointSetParameters &set : strong.joints)
@@ -472,12 +484,13 @@ namespace quoin
           const double wanted
               = failure_by_bolts
                 / (system.implicit_solver ? JumpWatch::far_beyond : 1.)
-                * mobilising_motion(model.reinforcement(), base, force);
+                * mobilising_motion(model.reinforcement(), base, grown * force);
           least = std::max(least, std::min(wanted, most_for_bolts * diagonal));
         }
-      return std::max(least, force > 0. && energy > 0.
-                                 ? failure_by_loading * 2. * energy / force
-                                 : failure_by_diagonal * diagonal);
+      return std::max(least,
+                      force > 0. && energy > 0.
+                          ? failure_by_loading * grown * 2. * energy / force
+                          : failure_by_diagonal * diagonal);
     }
 
     template <int dim>

@@ -733,6 +733,27 @@ def failure_displacement_of_what_is_there(quoin, folder):
                       "heavy one" % tuple(limits))
 
 
+def failure_displacement_of_growing_loads(quoin, folder):
+    """Weight of which half is there where the search begins counts in whole."""
+    prm = prepare(folder)
+    limits = []
+    for duration in ("0.01", "0.02"):
+        status, printed = run(
+            [quoin, prm] + settings({"set": SAFETY + [
+                "Stages/second/Highest factor=3", "Stages/third/Loads=base, weight",
+                "Loads/Names=base, weight", "Loads/weight/Type=gravity",
+                "Loads/weight/Vertical=-9.81", "Loads/weight/Ramp duration=0.02",
+                "Stages/first/Loads=base, weight",
+                "Stages/second/Loads=base, weight",
+                "Stages/first/Duration=" + duration]}))
+        expect(status, printed, 0, ["stage second: trials may fail beyond "])
+        limits.append(float(
+            re.search(r"may fail beyond (\S+) m", printed)[1]))
+    if not abs(limits[0] / limits[1] - 1) < 0.05:
+        raise Failure("%g m where half of the weight is there, %g m where all of "
+                      "it is" % tuple(limits))
+
+
 def last_allowed_step(quoin, folder):
     """A stage that comes to its end in its last allowed step has not failed."""
     prm = prepare(folder)
@@ -1306,6 +1327,7 @@ FUNCTIONS = [base_case_runs, quiet_run, boundary_begins_in_motion,
              other_ranks, failure_of_one_rank, more_ranks_than_rigid_blocks,
              other_parameters, nothing_to_resume, failing_block_leaves,
              safety_changes_nothing, failure_displacement_of_what_is_there,
+             failure_displacement_of_growing_loads,
              last_allowed_step, implicit_checkpoints,
              implicit_limit_load, interrupted_before_the_steps,
              two_runs_at_once, odd_names, file_of_another_system,
