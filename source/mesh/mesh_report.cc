@@ -36,6 +36,16 @@ namespace quoin
       return result;
     }
 
+    template <int dim>
+    dealii::Point<dim> middle_of(const BlockMesh<dim> &mesh,
+                                 const std::array<unsigned int, dim + 1> &cell)
+    {
+      dealii::Point<dim> middle;
+      for (const unsigned int vertex : cell)
+        middle += mesh.vertices[vertex] / (dim + 1.);
+      return middle;
+    }
+
     void add_quality(const BlockMesh<2> &mesh, MeshReport &report)
     {
       report.shortest_edge  = std::numeric_limits<double>::max();
@@ -80,9 +90,13 @@ namespace quoin
           const double length  = x(i).distance(x(j));
           report.shortest_edge = std::min(report.shortest_edge, length);
           report.longest_edge  = std::max(report.longest_edge, length);
-          largest_cosine = std::max(largest_cosine, -(normals[i] * normals[j])
-                                                        / normals[i].norm()
-                                                        / normals[j].norm());
+          const double cosine  = -(normals[i] * normals[j]) / normals[i].norm()
+                                / normals[j].norm();
+          if (cosine > largest_cosine)
+          {
+            largest_cosine        = cosine;
+            report.angle_position = in_space(middle_of(mesh, cell));
+          }
         }
       }
       report.smallest_angle
@@ -116,18 +130,14 @@ namespace quoin
       for (const auto &cell : mesh.cells)
       {
         std::array<dealii::Point<dim>, dim + 1> x;
-        dealii::Point<dim> middle;
         for (unsigned int k = 0; k <= dim; ++k)
-        {
           x[k] = mesh.vertices[cell[k]];
-          middle += x[k] / (dim + 1.);
-        }
         edges.push_back(x[0].distance(x[1]));
         for (unsigned int k = 0; k <= dim; ++k)
           if (const double h = height(x, k); h < report.smallest_height)
           {
             report.smallest_height   = h;
-            report.smallest_position = in_space(middle);
+            report.smallest_position = in_space(middle_of(mesh, cell));
           }
       }
       const auto half = edges.begin() + edges.size() / 2;
@@ -573,8 +583,10 @@ namespace quoin
     text.precision(digits);
     text << "\nedges " << shortest_edge << " to " << longest_edge
          << " m, smallest angle " << smallest_angle << " degrees"
-         << (is_plane ? "\n" : " between faces\n") << n_joint_faces
-         << " joint faces, " << total_joint_size << unit;
+         << (is_plane
+                 ? "\n"
+                 : " between faces at " + position(angle_position) + " m\n")
+         << n_joint_faces << " joint faces, " << total_joint_size << unit;
     const char *separator = ": ";
     for (const auto &[name, size] : joint_size)
     {

@@ -1006,8 +1006,8 @@ def blocks_that_overlap(quoin, folder):
 
 
 def slivers_of_tetrahedra(quoin, folder):
-    """The log has the smallest angle between faces of all tetrahedra, and a
-    warning the place of the lowest one, of two slivers: four points on two
+    """The log has the smallest angle between faces of all tetrahedra with its
+    place, and a warning the place of the lowest one, of two slivers: four points on two
     edges of 2 m that cross at right angles, one 2 d above the other."""
     places = [(0.0, 0.0, 0.0), (10.0, 20.0, 30.0)]
 
@@ -1081,10 +1081,13 @@ end
         d = min(halves)
         # along the four edges of sqrt(2 + 4 d^2); along the two of 2 m it is flat
         angle = math.degrees(math.acos(1 / (1 + 4 * d * d)))
-        found = re.search(r"smallest angle (\S+) degrees between faces", printed)
-        if not found or abs(float(found.group(1)) / angle - 1) > 1e-5:
-            raise Failure("the smallest angle is not %g degrees:\n%s"
-                          % (angle, printed.strip()))
+        place = "(%g, %g, %g)" % places[halves.index(d)]
+        found = re.search(
+            r"smallest angle (\S+) degrees between faces at (\(.*\)) m", printed)
+        if (not found or abs(float(found.group(1)) / angle - 1) > 1e-5
+                or found.group(2) != place):
+            raise Failure("the smallest angle is not %g degrees at %s m:\n%s"
+                          % (angle, place, printed.strip()))
         warnings = [line for line in printed.splitlines()
                     if line.startswith("Warning: ")]
         if lowest is None:

@@ -46,8 +46,10 @@ namespace quoin
         middle of that cell. */
     double smallest_height = 0.;
     dealii::Point<3> smallest_position;
-    /** Between edges of a triangle or faces of a tetrahedron [degree]. */
+    /** Between edges of a triangle or faces of a tetrahedron [degree], and the
+        middle of the tetrahedron that has it. */
     double smallest_angle = 0.;
+    dealii::Point<3> angle_position;
 
     unsigned int n_joint_ends = 0; /**< unsplit vertices inside a block */
     /** Joint faces with all vertices unsplit: they can never open or slip. */
@@ -87,10 +89,10 @@ namespace quoin
       archive &dimension &n_blocks &n_cells &n_nodes &n_joint_faces &quadratic
           &mixed &joint_size &total_joint_size &shortest_edge &longest_edge
               &median_edge &smallest_height &smallest_position &smallest_angle
-                  &n_joint_ends &n_tied_joint_faces &n_reoriented_cells
-                      &largest_shift &unmatched_size &unmatched_touch
-                          &unmatched_position &overlaps &overlap_depth
-                              &overlap_position &slender &box;
+                  &angle_position &n_joint_ends &n_tied_joint_faces
+                      &n_reoriented_cells &largest_shift &unmatched_size
+                          &unmatched_touch &unmatched_position &overlaps
+                              &overlap_depth &overlap_position &slender &box;
     }
 
     /** Lines of text without a final newline. */

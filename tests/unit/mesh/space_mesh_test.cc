@@ -584,6 +584,13 @@ TEST(SpaceMesh, ReportsTheShapeOfTetrahedra)
                                      Point(0., 1., 0.), Point(0., 0., 1.) });
   EXPECT_NEAR(corner.smallest_angle,
               std::acos(1. / std::sqrt(3.)) / constants::degree, 1e-9);
+  EXPECT_NEAR(corner.angle_position.distance(Point(0.25, 0.25, 0.25)), 0.,
+              1e-12);
+  EXPECT_NE(corner.to_text().find("degrees between faces at "
+                                  + corner.position(corner.angle_position)
+                                  + " m\n"),
+            std::string::npos)
+      << corner.to_text();
   EXPECT_NEAR(corner.shortest_edge, 1., 1e-12);
   EXPECT_NEAR(corner.longest_edge, std::sqrt(2.), 1e-12);
   EXPECT_NE(corner.to_text().find("1 blocks, 1 tetrahedra, 4 nodes; x 0 to 1 "
