@@ -230,8 +230,8 @@ namespace quoin
       // Before plausibility, which looks at more than a run uses.
       for (const auto &doubts :
            { input.idle_overrides(prm), idle_properties(prm, top),
-             implausible_values(top, parameters),
-             idle_damping(top, parameters) })
+             implausible_values(top, parameters), idle_damping(top, parameters),
+             idle_motion(parameters) })
         parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
                                    doubts.end());
     }

@@ -554,16 +554,18 @@ namespace quoin
                                            const ParameterSection &top)
   {
     std::vector<std::string> warnings;
-    for (const std::string kind : { "Materials", "Joints" })
+    for (const std::string kind : { "Materials", "Joints", "Histories" })
       for (const std::string &name : ParameterSection(top, kind).list("Names"))
       {
-        const std::string path = kind + "/" + name;
+        const bool is_history     = kind == "Histories";
+        const std::string chooser = is_history ? "Quantity" : "Law";
+        const std::string path    = kind + "/" + name;
         const std::string word
-            = ParameterSection(ParameterSection(top, kind), name).text("Law");
+            = ParameterSection(ParameterSection(top, kind), name).text(chooser);
         if (word == "rigid") // its moduli wait for deformable blocks
           continue;
         // An option or a file may choose another law for one that it includes.
-        const auto law       = prm.places.find(path + "/Law");
+        const auto law       = prm.places.find(path + "/" + chooser);
         const auto is_option = [](const std::string &place)
         { return place.find(" with --set") != std::string::npos; };
         const auto is_elsewhere = [&](const std::string &place)
@@ -587,10 +589,43 @@ namespace quoin
           }
         if (!names.empty())
           warnings.push_back(
-              place + section_phrase(path) + ": 'Law = " + word
-              + "' does not read " + names
-              + ". Choose the law that is meant, or remove them.");
+              place + section_phrase(path) + ": '" + chooser + " = " + word
+              + "' does not read " + names + ". Choose the "
+              + (is_history ? "quantity" : "law") + " that is meant, or remove "
+              + (names.find(',') == std::string::npos ? "it." : "them."));
       }
+    return warnings;
+  }
+
+  std::vector<std::string> idle_motion(const Parameters &parameters)
+  {
+    std::vector<std::string> warnings;
+    if (!parameters.is_implicit)
+      return warnings;
+    const auto where = [&](const std::string &path, const std::string &entry)
+    {
+      const auto place = parameters.places.find(path + "/" + entry);
+      return (place == parameters.places.end() ? parameters.file
+                                               : place->second)
+             + section_phrase(path) + ": ";
+    };
+    for (const HistoryParameters &history : parameters.histories)
+      if (history.quantity == HistoryQuantity::velocity
+          || history.quantity == HistoryQuantity::block_velocity
+          || history.quantity == HistoryQuantity::boundary_velocity
+          || history.quantity == HistoryQuantity::kinetic_share)
+        warnings.push_back(
+            where("Histories/" + history.name, "Quantity")
+            + "'Quantity = " + history.word
+            + "' is 0 in all rows: 'Solver = implicit' leaves out motion. "
+              "Record a displacement, or take 'explicit'.");
+    for (const LoadParameters &load : parameters.loads)
+      if (load.has_added_mass)
+        warnings.push_back(
+            where("Loads/" + load.name, "Added mass")
+            + "'Added mass = Westergaard' does nothing: 'Solver = implicit' "
+              "leaves out motion, and the mass of the water with it. Its "
+              "pressure acts. Take 'explicit' for an earthquake, or 'none'.");
     return warnings;
   }
 

@@ -264,17 +264,25 @@ namespace quoin
                 from.fail("Second point", "is 'Point' itself. Give another "
                                           "point.");
             });
-      entries.text("Load", history.load,
-                   "Load whose reaction or platen is recorded.");
-      entries.text(
-          "Curve", history.curve,
-          "Physical curve on which the nearest joint point of joint quantities "
-          "is searched, or over which joint forces are summed, with 'unnamed' "
-          "for joints on no named curve and empty for all; where the flow of "
-          "water is summed; a physical surface in three "
-          "dimensions; or the name of the "
-          "boundary "
-          "in 'Boundary elements' of boundary forces and moments.");
+      const bool of_load
+          = kind.quantity == HistoryQuantity::reaction
+            || kind.quantity == HistoryQuantity::platen_displacement
+            || kind.quantity == HistoryQuantity::platen_force;
+      if (entries.reads_if(of_load))
+        entries.text("Load", history.load,
+                     "Load whose reaction or platen is recorded.");
+      if (entries.reads_if(kind.quantity == HistoryQuantity::joint
+                           || kind.quantity == HistoryQuantity::joint_force
+                           || kind.quantity == HistoryQuantity::water
+                           || kind.quantity == HistoryQuantity::boundary_force))
+        entries.text(
+            "Curve", history.curve,
+            "Physical curve on which the nearest joint point of joint "
+            "quantities is searched, or over which joint forces are summed, "
+            "with 'unnamed' for joints on no named curve and empty for all; "
+            "where the flow of water is summed; a physical surface in three "
+            "dimensions; or the name of the boundary in 'Boundary elements' of "
+            "boundary forces and moments.");
       if (entries.reads_if(history.is_of_block()))
         entries.text("Block", history.block,
                      "Block whose quantities are recorded, one of the 'Names' "
@@ -302,10 +310,6 @@ namespace quoin
         return;
       if (!history.water.empty() && !history.curve.empty())
         section->fail("Water boundary", "and 'Curve': give one of them.");
-      const bool of_load
-          = kind.quantity == HistoryQuantity::reaction
-            || kind.quantity == HistoryQuantity::platen_displacement
-            || kind.quantity == HistoryQuantity::platen_force;
       if (of_load && history.load.empty())
         section->fail("Load", "must name the load to be recorded.");
       if (kind.quantity == HistoryQuantity::boundary_force

@@ -32,11 +32,16 @@ namespace quoin
                                         const Parameters &parameters);
 
   /**
-   * Warnings about properties of materials and joints that the file of @p top
-   * gives and that their law does not read. @p prm has notes of what was read.
+   * Warnings about properties of materials and joints and about entries of
+   * histories that the file of @p top gives and that their law or quantity does
+   * not read. @p prm has notes of what was read.
    */
   std::vector<std::string> idle_properties(const NotedParameters &prm,
                                            const ParameterSection &top);
+
+  /** Warnings about what needs motion, which the implicit solver leaves out:
+      histories of velocities and the mass of the water before a dam. */
+  std::vector<std::string> idle_motion(const Parameters &parameters);
 
   /**
    * Warnings about tables and records of @p parameters that last far longer
