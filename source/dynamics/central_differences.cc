@@ -3,6 +3,7 @@
 
 #include <quoin/blocks/block_forces_3d.h>
 #include <quoin/dynamics/central_differences.h>
+#include <quoin/dynamics/largest_force.h>
 
 #include <algorithm>
 #include <cmath>
@@ -463,10 +464,12 @@ namespace quoin
   }
 
   template <int dim>
-  double CentralDifferences<dim>::unbalanced_ratio(const State<dim> &state,
+  double CentralDifferences<dim>::unbalanced_ratio(State<dim> &state,
                                                    const StepContext &context,
                                                    StepSums sums) const
   {
+    /** Part of the largest applied force below which it has been taken away. */
+    constexpr double unloaded = 1e-3;
     // The unbalanced force of a free component is its force; of one that a
     // viscous boundary or far field moves, mass times acceleration, as that
     // load takes the rest; a prescribed component has a reaction and none.
@@ -495,7 +498,10 @@ namespace quoin
     for (const MotionConstraint<dim> *constraint : constraints)
       if (const RigidMotion<dim> *body = constraint->rigid_motion())
         all[1] += body->unbalanced();
-    return all[0] > 0. ? all[1] / all[0] : 0.;
+    double &largest      = state.template get<LargestForce>().applied;
+    largest              = std::max(largest, all[0]);
+    const double applied = std::max(all[0], unloaded * largest);
+    return applied > 0. ? all[1] / applied : 0.;
   }
 
   template class CentralDifferences<2>;

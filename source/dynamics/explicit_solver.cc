@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/operators/stored_energy.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/highest_frequency.h>
 #include <quoin/dynamics/kinetic_energy.h>
+#include <quoin/dynamics/largest_force.h>
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/loading/constraint_checks.h>
 #include <quoin/loading/load_growth.h>
@@ -87,6 +89,7 @@ namespace quoin
   void ExplicitSolver<dim>::prepare(State<dim> &state) const
   {
     Solver<dim>::prepare(state);
+    state.template add<LargestForce>();
     if constexpr (dim == 2)
       if (block_contacts)
         block_contacts->prepare(state);
@@ -459,6 +462,7 @@ namespace quoin
     state.load_rate_growth = 1.;
     state.adaptive_damping = 0.;
     state.unbalanced_ratio = 1.;
+    state.template get<LargestForce>().applied = 0.;
   }
 
   template <int dim>

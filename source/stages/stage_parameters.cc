@@ -212,7 +212,10 @@ namespace quoin
         entries.positive("Static ratio", stage.static_ratio,
                          "Ratio of unbalanced to applied force, below 1, at "
                          "which a stage with 'End = static ratio' ends and a "
-                         "trial of a factor of safety is stable [-]");
+                         "trial of a factor of safety is stable; in explicit "
+                         "stages at least a thousandth of the largest applied "
+                         "force of the stage counts, as where all loads are "
+                         "taken away [-]");
         entries.nonnegative(
             "Minimum duration", stage.minimum_duration,
             "Minimum duration of a stage with 'End = static ratio', which "

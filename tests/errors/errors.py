@@ -754,6 +754,22 @@ def failure_displacement_of_growing_loads(quoin, folder):
                       "it is" % tuple(limits))
 
 
+def unloaded_model_comes_to_rest(quoin, folder):
+    """A stage without loads ends, by the forces that it began with."""
+    prm = prepare(folder)
+    for damping in ("local", "adaptive"):
+        status, printed = run([quoin, prm] + settings({"set": [
+            "Stages/first/End=static ratio", "Stages/second/End=static ratio",
+            "Stages/second/Loads=base", "Stages/second/Damping=" + damping]}))
+        expect(status, printed, 0, [])
+        first, second = (int(n) for n in re.findall(
+            r"^(?:first|second): ended .* after (\d+) steps", printed, re.M))
+        if not second < 3 * first:
+            raise Failure("%d steps without loads, %d to load it, %s damping"
+                          % (second, first, damping))
+    return printed
+
+
 def last_allowed_step(quoin, folder):
     """A stage that comes to its end in its last allowed step has not failed."""
     prm = prepare(folder)

@@ -97,8 +97,11 @@ namespace quoin
     /** Sum of the forces of operators on this rank's nodes [N], after
         add_forces(). Collective. */
     double applied_force() const;
-    /** Ratio of unbalanced to applied force, of all ranks [-]. Collective. */
-    double unbalanced_ratio(const State<dim> &state, const StepContext &context,
+    /** Ratio of unbalanced to applied force, of all ranks [-], or to a
+        thousandth of the largest applied force of the stage where less is left:
+        without loads both go to zero. Keeps that force in @p state. Collective.
+     */
+    double unbalanced_ratio(State<dim> &state, const StepContext &context,
                             StepSums sums) const;
     /** Force on @p node by the inertia of @p mass in the last step [N]. */
     dealii::Tensor<1, dim> inertia_force(const NodeMass<dim> &mass) const
