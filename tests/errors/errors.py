@@ -770,6 +770,29 @@ def unloaded_model_comes_to_rest(quoin, folder):
     return printed
 
 
+def search_leaves_adaptive_damping(quoin, folder):
+    """A block that creeps under adaptive damping is tried with local damping
+    after four times the steps of the trial that came to rest."""
+    prm = os.path.join(HERE, "..", "..", "parameter_files", "verification",
+                       "space_incline", "safety.prm")
+    status, printed = run(
+        [quoin, prm, "--output", os.path.join(folder, "output")]
+        + settings({"set": [
+            "Stages/safety/Damping=adaptive", "Stages/safety/First factor=1.19",
+            "Stages/safety/Highest factor=1.2",
+            "Stages/safety/Factor tolerance=0.02",
+            "Stages/safety/Failure displacement=2e-3"]}))
+    expect(status, printed, 0, [
+        "factor 1.19 is stable", "factor 1.2 is undecided under adaptive damping",
+        "factor 1.2 is failing", "2 trials"])
+    steps = [int(n) for n in re.findall(
+        r"^safety, factor \S+: ended .* after (\d+) steps", printed, re.M)]
+    # it looks every hundred steps
+    if not 4 * steps[0] <= steps[1] < 4 * steps[0] + 100:
+        raise Failure("the attempts take %s steps" % steps)
+    return printed
+
+
 def last_allowed_step(quoin, folder):
     """A stage that comes to its end in its last allowed step has not failed."""
     prm = prepare(folder)
@@ -1347,6 +1370,7 @@ FUNCTIONS = [base_case_runs, quiet_run, boundary_begins_in_motion,
              other_parameters, nothing_to_resume, failing_block_leaves,
              safety_changes_nothing, failure_displacement_of_what_is_there,
              failure_displacement_of_growing_loads,
+             search_leaves_adaptive_damping, unloaded_model_comes_to_rest,
              last_allowed_step, implicit_checkpoints,
              implicit_limit_load, interrupted_before_the_steps,
              two_runs_at_once, odd_names, file_of_another_system,

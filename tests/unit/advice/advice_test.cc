@@ -451,6 +451,32 @@ namespace
   }
 } // namespace
 
+TEST(ModelSummary, SlenderBlocksInJointsAreNoneOfCoarseOnes)
+{
+  // Of 2 m of faces this much is no joint.
+  const auto n_coarse
+      = [](const double outer, const bool is_rigid, const TriangleKind kind)
+  {
+    Parameters parameters               = good_parameters();
+    parameters.cells.kind               = kind;
+    parameters.model.materials[0].rigid = is_rigid;
+    SlenderBlock block;
+    block.faces = 2.;
+    block.outer = { { "left", 0.25 * outer }, { "", 0.75 * outer } };
+    MeshReport report;
+    report.slender   = { block };
+    const auto found = coarse_slender_blocks(parameters, report,
+                                             std::vector<unsigned int>{ 0 });
+    return found.size();
+  };
+  EXPECT_EQ(n_coarse(2., false, TriangleKind::plain), 1U);
+  EXPECT_EQ(n_coarse(1.52, false, TriangleKind::plain), 1U);
+  EXPECT_EQ(n_coarse(1.48, false, TriangleKind::plain), 0U);
+  EXPECT_EQ(n_coarse(0., false, TriangleKind::plain), 0U);
+  EXPECT_EQ(n_coarse(2., true, TriangleKind::plain), 0U);
+  EXPECT_EQ(n_coarse(2., false, TriangleKind::quadratic), 0U);
+}
+
 TEST(ContactAdvice, OverlapAgainstGaps)
 {
   // At 0.08 m/s 0.894 mm, at 0.1 m/s 1.118 mm.
