@@ -188,7 +188,8 @@ namespace quoin
           follow_cracks(model, load, nodal.back());
         break;
       case LoadType::platen:
-        constraints.push_back(std::make_unique<PlatenOf<dim>>(load, nodes));
+        constraints.push_back(
+            std::make_unique<PlatenOf<dim>>(load, nodes, model.thickness()));
         break;
       case LoadType::boundary_elements:
         if constexpr (dim == 2)

@@ -80,7 +80,8 @@ namespace quoin
   template <int dim>
   std::vector<double> platen_areas(const LoadParameters &parameters,
                                    const NodeMap<dim> &node_map,
-                                   const std::vector<unsigned int> &nodes)
+                                   const std::vector<unsigned int> &nodes,
+                                   const Thickness &thickness)
   {
     if (!parameters.groups.empty())
       return {};
@@ -90,19 +91,23 @@ namespace quoin
       for (unsigned int k = 0; k < dim; ++k)
         if (node_map.exchange().owns(face.nodes[k]))
           areas[node_map.exchange().local(face.nodes[k])]
-              += face.shares[k] * outward_area(face.points).norm();
+              += face.shares[k] * outward_area(face.points).norm()
+                 * thickness[face.group];
     for (const unsigned int node : nodes)
       result.push_back(areas[node]);
     return result;
   }
   template std::vector<double> platen_areas(const LoadParameters &,
                                             const NodeMap<2> &,
-                                            const std::vector<unsigned int> &);
+                                            const std::vector<unsigned int> &,
+                                            const Thickness &);
   template std::vector<double> platen_areas(const LoadParameters &,
                                             const NodeMap<3> &,
-                                            const std::vector<unsigned int> &);
+                                            const std::vector<unsigned int> &,
+                                            const Thickness &);
 
-  Platen::Platen(const LoadParameters &parameters, const NodeMap<2> &node_map)
+  Platen::Platen(const LoadParameters &parameters, const NodeMap<2> &node_map,
+                 const Thickness &thickness)
     : components(parameters.components), communicator(node_map.communicator())
   {
     load_name                 = parameters.name;
@@ -110,7 +115,7 @@ namespace quoin
     own_traits.holds          = { { driven(0), driven(1), driven(2) } };
     own_traits.holds_rotation = driven(2);
     node_list                 = platen_nodes(parameters, node_map);
-    node_area                 = platen_areas(parameters, node_map, node_list);
+    node_area = platen_areas(parameters, node_map, node_list, thickness);
   }
 
   void Platen::set_mass(const std::vector<double> &mass,

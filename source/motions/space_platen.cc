@@ -107,7 +107,8 @@ namespace quoin
   }
 
   SpacePlaten::SpacePlaten(const LoadParameters &parameters,
-                           const NodeMap<3> &node_map)
+                           const NodeMap<3> &node_map,
+                           const Thickness &thickness)
     : components(parameters.components), turns(parameters.rotations),
       communicator(node_map.communicator())
   {
@@ -116,7 +117,7 @@ namespace quoin
     own_traits.holds          = { { driven(0), driven(1), driven(2) } };
     own_traits.holds_rotation = driven(3) && driven(4) && driven(5);
     node_list                 = platen_nodes(parameters, node_map);
-    node_area                 = platen_areas(parameters, node_map, node_list);
+    node_area = platen_areas(parameters, node_map, node_list, thickness);
   }
 
   bool SpacePlaten::driven(const unsigned int d) const

@@ -4,6 +4,7 @@
 #ifndef quoin_motions_platen_h
 #define quoin_motions_platen_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/motions/motion_constraint.h>
 #include <quoin/mesh/node_map.h>
@@ -18,11 +19,13 @@ namespace quoin
 
   /** The areas of the boundary that belong to its @p nodes, platen_nodes()
       [m^2]: their middle is the centre of the platen. Platens on groups have
-      none; their centre is that of the mass. */
+      none; their centre is that of the mass. @p thickness: of each cell group
+      [m]. */
   template <int dim>
   std::vector<double> platen_areas(const LoadParameters &parameters,
                                    const NodeMap<dim> &node_map,
-                                   const std::vector<unsigned int> &nodes);
+                                   const std::vector<unsigned int> &nodes,
+                                   const Thickness &thickness);
 
   /** Motion of a rigid platen: x [m], y [m], rotation [rad, anticlockwise]. */
   struct PlatenState
@@ -61,7 +64,9 @@ namespace quoin
   class Platen : public MotionConstraint<2>, public RigidMotion<2>
   {
   public:
-    Platen(const LoadParameters &parameters, const NodeMap<2> &node_map);
+    /** @p thickness: of each cell group [m]. */
+    Platen(const LoadParameters &parameters, const NodeMap<2> &node_map,
+           const Thickness &thickness = Thickness());
 
     void prepare(State<2> &state) const override;
     void set_mass(const std::vector<double> &mass, double extra_inertia = 0.,

@@ -59,7 +59,9 @@ namespace quoin
   class SpacePlaten : public MotionConstraint<3>, public RigidMotion<3>
   {
   public:
-    SpacePlaten(const LoadParameters &parameters, const NodeMap<3> &node_map);
+    /** @p thickness: 1. */
+    SpacePlaten(const LoadParameters &parameters, const NodeMap<3> &node_map,
+                const Thickness &thickness = Thickness());
 
     void prepare(State<3> &state) const override;
     void set_mass(const std::vector<double> &mass, double extra_inertia = 0.,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../mesh/test_meshes.h"
+#include "../mesh/test_nodes.h"
 #include "boundary_square.h"
 
 #include <quoin/motions/platen.h>
@@ -144,6 +146,31 @@ TEST(Platen, ForcesOnABoundaryActInItsMiddle)
   EXPECT_NEAR(block.state.velocity[0][1], 12. / 3. * block.dt - turns, 1e-8);
   EXPECT_NEAR(block.state.velocity[1][1], 12. / 3. * block.dt + 2. * turns,
               1e-8);
+}
+
+// Two blocks of 1 m side by side, of which one is three times as thick: a
+// uniform pressure on both acts in their middle.
+TEST(Platen, TheMiddleOfABoundaryIsThatOfItsArea)
+{
+  MeshData<2> data;
+  test::add_grid(data, 1, 1, "thin", 0., 0.);
+  test::add_grid(data, 1, 1, "thick", 1., 0.);
+  test::add_curve(data, "bottom", 0., 0., 2., 0.);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  const test::TestNodes nodes(mesh);
+  const LoadParameters load = HeldBlock::parameters({}, {}, {}, "bottom");
+  const auto found          = platen_nodes<2>(load, nodes);
+  const auto areas
+      = platen_areas<2>(load, nodes, found, Thickness({ 0.5, 1.5 }));
+  double total = 0., middle = 0.;
+  for (unsigned int i = 0; i < found.size(); ++i)
+  {
+    total += areas[i];
+    middle += areas[i] * nodes->point(found[i])[0];
+  }
+  EXPECT_NEAR(total, 2., 1e-12);
+  EXPECT_NEAR(middle / total, 1.25, 1e-12);
 }
 
 // A boundary that is turned about its middle and free to move else wobbles
