@@ -527,6 +527,12 @@ namespace quoin
       ParameterSection(top, "Incident waves")
           .fail("Names", "needs motion, which 'Solver = implicit' leaves "
                          "out: remove the waves, or take 'explicit'.");
+    if (!parameters.boundary.waves.empty() && !has_dynamic_boundary(parameters))
+      ParameterSection(top, "Incident waves")
+          .fail("Names", "lists waves that never come in: no stage with 'End "
+                         "= time' names the load of the boundary elements, "
+                         "and waves do not pass in static stages. Give such a "
+                         "stage, or remove the waves.");
     if (parameters.is_implicit && parameters.initial_motion.is_given())
       top.fail("Solver", "leaves out inertia, but section 'Initial motion' "
                          "gives one: remove that, or take 'explicit'.");
