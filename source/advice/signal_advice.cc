@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace quoin
@@ -140,6 +141,72 @@ namespace quoin
       }
     }
 
+    /** Whether @p load moves its nodes to both sides of where @p stage, which
+        begins at @p start [s], finds them. */
+    bool goes_to_and_fro(const LoadParameters &load,
+                         const StageParameters &stage, const double start)
+    {
+      /** Shorter way by the longer one that makes a cycle [-]. */
+      constexpr double least = 0.2;
+      if (load.type != LoadType::prescribed_motion
+          && load.type != LoadType::platen)
+        return false;
+      for (const auto &given : load.given_components())
+      {
+        if (given.component.quantity == LoadQuantity::force
+            || given.component.field || given.name.rfind("rotation", 0) == 0)
+          continue;
+        const double step = stage.duration / (n_samples - 1);
+        double low = 0., high = 0., way = 0.;
+        for (unsigned int i = 0; i < n_samples; ++i)
+        {
+          const double value
+              = given.component.value({ i * step, start + i * step });
+          way  = given.component.quantity == LoadQuantity::velocity
+                     ? way + value * step
+                     : value;
+          low  = std::min(low, way);
+          high = std::max(high, way);
+        }
+        if (std::min(high, -low) > least * std::max(high, -low))
+          return true;
+      }
+      return false;
+    }
+
+    /** Warns of the first stage with cycles on mortar whose cracks do not
+        close. */
+    void check_cycles(const Parameters &parameters, Advice &advice)
+    {
+      const auto &sets = parameters.model.joints;
+      const auto set
+          = std::find_if(sets.begin(), sets.end(),
+                         [](const JointSetParameters &each)
+                         {
+                           const auto *law
+                               = std::get_if<CompositeLaw>(&each.law);
+                           return law && !law->cracks_close;
+                         });
+      if (set == sets.end())
+        return;
+      for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+        for (const LoadParameters &load : parameters.loads)
+        {
+          const StageParameters &stage = parameters.stages[i];
+          if (stage.end != StageEnd::time || !names_load(stage, load.name)
+              || !goes_to_and_fro(load, stage,
+                                  start_of_stage(parameters.stages, i)))
+            continue;
+          Checks(advice, "stage " + stage.name + ": ")
+              .warn_if(true, "the load ", load.name,
+                       " goes to and fro, but cracks of the joints ", set->name,
+                       " stay open: they bear compression before they are "
+                       "closed, and what opens on one side lifts the other "
+                       "one. Give 'Cracks = close', which cycles need.");
+          return;
+        }
+    }
+
     /** Warns of @p velocity [m/s] of a wave that no rock survives. */
     void check_velocity(const double velocity, const std::string &of,
                         Advice &advice)
@@ -206,6 +273,7 @@ namespace quoin
       all_by_time = all_by_time && stage.end == StageEnd::time;
     }
     check_waves(parameters, advice);
+    check_cycles(parameters, advice);
     const double end
         = start_of_stage(parameters.stages, parameters.stages.size());
     Checks(advice, "'Interval = ")
