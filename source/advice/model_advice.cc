@@ -4,6 +4,7 @@
 #include <quoin/advice/contact_advice.h>
 #include <quoin/advice/load_advice.h>
 #include <quoin/advice/model_summary.h>
+#include <quoin/advice/sequence_advice.h>
 #include <quoin/advice/signal_advice.h>
 #include <quoin/advice/support_advice.h>
 #include <quoin/base/known_names.h>
@@ -724,6 +725,7 @@ namespace quoin
     check_stress_at_rest(parameters, model, state, advice);
     check_forgotten_loads(parameters, advice);
     check_weight(parameters, advice);
+    check_ended_loads(parameters, model.nodes(), advice);
     check_free_platens(parameters, advice);
     check_release(parameters.stages, advice);
     check_failure_displacement(parameters.stages,
