@@ -726,6 +726,7 @@ namespace quoin
     check_forgotten_loads(parameters, advice);
     check_weight(parameters, advice);
     check_ended_loads(parameters, model.nodes(), advice);
+    check_late_supports(parameters, advice);
     check_free_platens(parameters, advice);
     check_release(parameters.stages, advice);
     check_failure_displacement(parameters.stages,

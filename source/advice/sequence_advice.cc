@@ -276,6 +276,80 @@ namespace quoin
         return;
       }
     }
+
+    /** Whether @p load stays what it is in @p stage. */
+    bool is_steady(const LoadParameters &load, const StageParameters &stage,
+                   const double start)
+    {
+      if (load.type == LoadType::boundary_elements)
+        return stage.end != StageEnd::time;
+      if (load.type == LoadType::platen
+          || load.type == LoadType::prescribed_motion)
+      {
+        // Forces of platens may be constant.
+        for (const NamedComponent &each : load.given_components())
+          for (const TimePoint &time : times_of(stage, start))
+            if (each.component.quantity != LoadQuantity::force
+                && (each.component.field || each.component.value(time) != 0.))
+              return false;
+      }
+      const auto given = load.given_components();
+      return !load.shape
+             && std::all_of(given.begin(), given.end(),
+                            [](const NamedComponent &each)
+                            { return each.component.value.is_constant(); });
+    }
+
+    /** Whether equilibrium comes before stage @p first, and nothing changes
+        from there on. */
+    bool is_idle_from(const Parameters &parameters, const unsigned int first)
+    {
+      const StageParameters *before = previous_stage(parameters.stages, first);
+      if (!before || before->release < 1. || !before->end_conditions.empty()
+          || before->slows_loads() || before->pattern
+          || (before->end == StageEnd::time && !parameters.is_implicit)
+          || parameters.water.flow == FlowKind::transient)
+        return false;
+      for (unsigned int i = first; i < parameters.stages.size(); ++i)
+      {
+        const StageParameters &stage = parameters.stages[i];
+        if (stage.safety || stage.pattern || !stage.excavate.empty()
+            || !stage.fill.empty() || stage.changes_properties()
+            || stage.strength_factor != before->strength_factor
+            || parameters.water.acts_in(stage.name)
+                   != parameters.water.acts_in(before->name))
+          return false;
+        const double start = start_of_stage(parameters.stages, i);
+        for (const LoadParameters &load : parameters.loads)
+          if (names_load(stage, load.name) != names_load(*before, load.name)
+              || (names_load(stage, load.name)
+                  && !is_steady(load, stage, start)))
+            return false;
+      }
+      const auto &boundaries = parameters.water.boundaries;
+      return parameters.water.flow == FlowKind::none
+             || std::all_of(boundaries.begin(), boundaries.end(),
+                            [](const WaterBoundary &boundary)
+                            { return boundary.value.is_constant(); });
+    }
+
+    /** Warns of what the stage named @p name places, if it is for nothing. */
+    void check_placed(const std::string &about, const std::string &name,
+                      const std::string &bears, const Parameters &parameters,
+                      Advice &advice)
+    {
+      for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+        if (parameters.stages[i].name == name)
+          Checks(advice, about)
+              .warn_if(is_idle_from(parameters, i), "stage ", name,
+                       " places it in equilibrium, and nothing changes from "
+                       "there on: no block comes or goes, forces of excavated "
+                       "ones have been released before, and loads stay what "
+                       "they were. It bears ",
+                       bears,
+                       ". Let it come earlier, or keep back a share of these "
+                       "forces by 'Release' until it is there.");
+    }
   } // namespace
 
   template <int dim>
@@ -304,6 +378,35 @@ namespace quoin
                  && holds_still(load, *before, change.start_before))
           check_support(load, change, nodes, checks);
       }
+    }
+  }
+
+  void check_late_supports(const Parameters &parameters, Advice &advice)
+  {
+    for (const CableParameters &cable : parameters.model.cables)
+      if (cable.pretension == 0.)
+        check_placed("reinforcement " + cable.name + ": ", cable.stage,
+                     "nothing", parameters, advice);
+    for (const BeamParameters &beam : parameters.beams)
+    {
+      const auto &loads = beam.distributed;
+      const bool is_loaded
+          = std::any_of(beam.forces.begin(), beam.forces.end(),
+                        [](const std::array<TimeFunction, 2> &force)
+                        {
+                          return !force[0].is_constant()
+                                 || !force[1].is_constant()
+                                 || force[0]({ 0., 0. }) != 0.
+                                 || force[1]({ 0., 0. }) != 0.;
+                        })
+            || std::any_of(
+                loads.begin(), loads.end(),
+                [](const TimeFunction &load) {
+                  return !load.is_constant() || load({ 0., 0. }) != 0.;
+                });
+      if (!is_loaded)
+        check_placed("beam " + beam.name + ": ", beam.stage,
+                     "nothing but its own weight", parameters, advice);
     }
   }
 

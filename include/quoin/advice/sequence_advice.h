@@ -14,6 +14,10 @@ namespace quoin
   template <int dim>
   void check_ended_loads(const Parameters &parameters,
                          const NodeMap<dim> &nodes, Advice &advice);
+
+  /** Warns of bars, beams and liners that a stage places after which nothing
+      changes. */
+  void check_late_supports(const Parameters &parameters, Advice &advice);
 } // namespace quoin
 
 #endif
