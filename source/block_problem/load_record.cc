@@ -282,7 +282,7 @@ namespace quoin
         if (!now.placed[b])
           continue;
         const BeamLine &line = beams.all()[b].line;
-        const auto loads     = line.loads(time, beams.gravity(time));
+        const auto loads     = beams.node_loads(b, time);
         for (unsigned int i = line.begin; i < line.end; ++i)
           for (unsigned int d = 0; d < 2; ++d)
           {
