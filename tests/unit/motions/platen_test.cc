@@ -5,6 +5,7 @@
 #include "../mesh/test_nodes.h"
 #include "boundary_square.h"
 
+#include <quoin/mesh/block_splitter.h>
 #include <quoin/motions/platen.h>
 
 #include <gtest/gtest.h>
