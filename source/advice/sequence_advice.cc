@@ -3,6 +3,7 @@
 
 #include <quoin/advice/sequence_advice.h>
 #include <quoin/base/known_names.h>
+#include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
 
 #include <algorithm>
@@ -113,11 +114,17 @@ namespace quoin
       const double close = 1e-6 * table.diagonal();
       const auto reaches = [&](const BoundaryFace<dim> &face)
       {
-        for (const dealii::Point<dim> &point : face.points)
-          for (unsigned int d = 0; d < dim; ++d)
-            if (point[d] < table.box[0][d] + close
-                || (d + 1 < dim && point[d] > table.box[1][d] - close))
-              return true;
+        const auto all_points = [&](const auto &is_there) {
+          return std::all_of(face.points.begin(), face.points.end(), is_there);
+        };
+        for (unsigned int d = 0; d < dim; ++d)
+          if (all_points([&](const dealii::Point<dim> &point)
+                         { return point[d] < table.box[0][d] + close; })
+              || (d + 1 < dim
+                  && all_points(
+                      [&](const dealii::Point<dim> &point)
+                      { return point[d] > table.box[1][d] - close; })))
+            return true;
         return false;
       };
       const auto faces
@@ -209,8 +216,10 @@ namespace quoin
         const auto others
             = others_at(name, load, change.stage, change.parameters);
         if (std::none_of(others.begin(), others.end(),
-                         [](const LoadParameters *other)
-                         { return is_support(*other); })
+                         [](const LoadParameters *other) {
+                           return is_support(*other)
+                                  || other->type == LoadType::traction;
+                         })
             && has_blocks(name, load, change.absent, true, nodes))
           open.push_back(name);
       }
@@ -245,7 +254,9 @@ namespace quoin
       for (const NamedComponent &each : load.given_components())
       {
         if (each.component.quantity != LoadQuantity::force
-            || (!each.component.field && is_over(each.component.value, change)))
+            || (each.component.field
+                    ? each.component.field->is_function_of_time()
+                    : is_over(each.component.value, change)))
           continue;
         std::vector<std::string> places;
         for (const std::string &name : load.boundaries)
@@ -297,7 +308,12 @@ namespace quoin
       return !load.shape
              && std::all_of(given.begin(), given.end(),
                             [](const NamedComponent &each)
-                            { return each.component.value.is_constant(); });
+                            {
+                              const auto &field = each.component.field;
+                              return each.component.value.is_constant()
+                                     && !(field
+                                          && field->is_function_of_time());
+                            });
     }
 
     /** Whether equilibrium comes before stage @p first, and nothing changes

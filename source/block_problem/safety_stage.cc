@@ -317,7 +317,7 @@ namespace quoin
           // Forces as small as those of an equilibrium may make blocks creep.
           else if (share >= 1. && this->has_settled()
                    && !watch.creeps(
-                       double(stage.maximum_steps - state.stage_step)
+                       (double(stage.maximum_steps) - double(state.stage_step))
                        * solver.get_time_step()))
           {
             judge_rest(watch.has_moved_on(), limit, trial);

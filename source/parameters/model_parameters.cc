@@ -532,7 +532,7 @@ namespace quoin
           .fail("Names", "lists waves that never come in: no stage with 'End "
                          "= time' names the load of the boundary elements, "
                          "and waves do not pass in static stages. Give such a "
-                         "stage, or remove the waves.");
+                         "stage, or remove the waves ('set Names =').");
     if (parameters.is_implicit && parameters.initial_motion.is_given())
       top.fail("Solver", "leaves out inertia, but section 'Initial motion' "
                          "gives one: remove that, or take 'explicit'.");

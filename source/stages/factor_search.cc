@@ -219,12 +219,14 @@ namespace quoin
     const bool is_known = passed >= least_known * interval;
     const double last   = is_known ? passed / 2. : interval;
     const double moved  = now - displacement_at(passed - last);
-    if (now + moved / last * left <= limit)
+    // Beyond the limit, and by as much as has_failed() asks for.
+    const double further = std::max(limit - now, (growth - 1.) * now);
+    if (moved <= 0. || moved / last * left <= further)
       return false;
     if (!is_known)
       return true;
     const double before = displacement_at(passed - last) - displacement_at(0.);
-    return before + moved >= growth * before;
+    return moved >= (growth - 1.) * before;
   }
 
   double FailureWatch::displacement_at(const double time) const

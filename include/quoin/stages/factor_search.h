@@ -150,9 +150,9 @@ namespace quoin
     /**
      * Whether a model that seems to be at rest creeps: its displacement since
      * the start has grown by 1.8 times in the last doubling of the time, and at
-     * that rate it is beyond the limit within @p left, the time that is left to
-     * the trial. True while the time since the start is too short to tell but
-     * the last two displacements ask for it.
+     * that rate it would grow by as much again, and beyond the limit, within
+     * @p left, the time that is left to the trial. True while the time since
+     * the start is too short to tell but the last two displacements ask for it.
      */
     bool creeps(double left) const;
 

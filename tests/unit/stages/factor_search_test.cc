@@ -191,6 +191,24 @@ TEST(FailureWatch, WhatCreepsIsNotAtRest)
   }
 }
 
+TEST(FailureWatch, WhatRestsBeyondTheLimitDoesNotCreep)
+{
+  // It came to 2 m while it was reduced, where 1 m is the limit, and rests
+  // there, springs back by a twentieth, or drifts by a picometre a second.
+  for (const double rate : { 0., 1e-12 })
+    for (const double back : { 0., 0.1 })
+    {
+      FailureWatch watch(1., 2.);
+      for (unsigned int i = 1; i <= 60; ++i)
+      {
+        const double t = 0.1 * i, since = std::max(0., t - 2.);
+        EXPECT_FALSE(watch.has_failed(t, 2. - back * std::min(1., 5. * since)
+                                             + rate * since));
+        EXPECT_FALSE(since > 0.1 && watch.creeps(1e4)) << t;
+      }
+    }
+}
+
 TEST(JumpWatch, RemembersEveryJump)
 {
   // The motion of FailureWatch.WhatIsCaughtFarAwayHasMovedOn in the first or
