@@ -155,8 +155,9 @@ TEST(Platen, TheMiddleOfABoundaryIsThatOfItsArea)
 {
   MeshData<2> data;
   test::add_grid(data, 1, 1, "thin", 0., 0.);
+  test::add_curve(data, "bottom", 0., 0., 1., 0.);
   test::add_grid(data, 1, 1, "thick", 1., 0.);
-  test::add_curve(data, "bottom", 0., 0., 2., 0.);
+  test::add_curve(data, "bottom", 1., 0., 2., 0.);
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
   const test::TestNodes nodes(mesh);
