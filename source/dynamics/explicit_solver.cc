@@ -126,8 +126,8 @@ namespace quoin
     critical.gain = 1.;
     if (!takes_assembled_step || keeps_bound())
       return bound;
-    const double found
-        = highest_squared_frequency(model, node_mass, rigid_stage);
+    const double found = highest_squared_frequency(
+        model, node_mass, rigid_stage, known_frequencies);
     if (found <= 0. || found >= bound)
       return bound;
     critical.gain = std::sqrt(bound / found);

@@ -191,7 +191,8 @@ namespace quoin
   template <int dim>
   double highest_squared_frequency(const Model<dim> &model,
                                    const std::vector<double> &mass,
-                                   const RigidBlockStage &rigid_stage)
+                                   const RigidBlockStage &rigid_stage,
+                                   std::vector<KnownFrequency> &known)
   {
     const MPI_Comm communicator = model.nodes().communicator();
     const auto product = [&](const Eigen::VectorXd &a, const Eigen::VectorXd &b)
@@ -215,6 +216,10 @@ namespace quoin
       // The start is in few eigenvectors, of which all are found.
       if (diagonal.size() >= n || beta <= 1e-8 * std::abs(diagonal[0]))
         break;
+      if (beside.empty())
+        for (const KnownFrequency &frequency : known)
+          if (frequency.diagonal == alpha && frequency.beside == beta)
+            return frequency.squared;
       beside.push_back(beta);
       before = v;
       v      = w / beta;
@@ -234,14 +239,19 @@ namespace quoin
     int exponent = 0;
     const double fraction
         = std::frexp(solver.eigenvalues().maxCoeff() / (1. - error), &exponent);
-    return std::ldexp(std::ceil(std::ldexp(fraction, n_digits)),
-                      exponent - n_digits);
+    const double squared = std::ldexp(std::ceil(std::ldexp(fraction, n_digits)),
+                                      exponent - n_digits);
+    if (!beside.empty())
+      known.push_back({ diagonal[0], beside[0], squared });
+    return squared;
   }
 
   template double highest_squared_frequency(const Model<2> &,
                                             const std::vector<double> &,
-                                            const RigidBlockStage &);
+                                            const RigidBlockStage &,
+                                            std::vector<KnownFrequency> &);
   template double highest_squared_frequency(const Model<3> &,
                                             const std::vector<double> &,
-                                            const RigidBlockStage &);
+                                            const RigidBlockStage &,
+                                            std::vector<KnownFrequency> &);
 } // namespace quoin

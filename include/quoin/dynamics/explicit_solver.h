@@ -7,6 +7,7 @@
 #include <quoin/dynamics/added_mass.h>
 #include <quoin/dynamics/added_water.h>
 #include <quoin/dynamics/central_differences.h>
+#include <quoin/dynamics/highest_frequency.h>
 #include <quoin/operators/state.h>
 #include <quoin/model/model_box.h>
 #include <quoin/dynamics/solver.h>
@@ -226,6 +227,9 @@ namespace quoin
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
     AddedWater<dim> water;
     bool takes_assembled_step = false;
+    /** A stage is begun for the report at the start, too, and again by
+        trials. */
+    std::vector<KnownFrequency> known_frequencies;
     CriticalStep critical;
     double time_step = 0.;
 

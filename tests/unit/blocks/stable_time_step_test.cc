@@ -155,10 +155,37 @@ TEST(HighestFrequency, IsThatOfTheAssembledOperator)
       const TestNodes nodes(mesh);
       const Model<2> model(nodes, parameters);
       const double exact = exact_eigenvalue(model);
-      const double found = highest_squared_frequency(model, model.mass(), {});
+      std::vector<KnownFrequency> known;
+      const double found
+          = highest_squared_frequency(model, model.mass(), {}, known);
       EXPECT_GE(found, exact * (1. - 1e-6)) << n << " " << kn;
       EXPECT_LE(found, exact * 1.015) << n << " " << kn;
     }
+}
+
+TEST(HighestFrequency, IsFoundOnceForOneStiffnessAndMass)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 8, 4);
+  const TestNodes nodes(mesh);
+  std::vector<KnownFrequency> known;
+  std::vector<double> mass;
+  const auto find = [&](const double kn, const double mass_factor)
+  {
+    const Model<2> model(nodes, two_blocks(kn, 0.5 * kn));
+    mass = model.mass();
+    for (double &m : mass)
+      m *= mass_factor;
+    return highest_squared_frequency(model, mass, {}, known);
+  };
+  const double first = find(1e13, 1.);
+  EXPECT_EQ(find(1e13, 1.), first);
+  EXPECT_EQ(known.size(), 1U);
+  EXPECT_NEAR(find(1e13, 2.), 0.5 * first, 1e-5 * first);
+  EXPECT_GT(find(1e14, 1.), 2. * first);
+  EXPECT_EQ(known.size(), 3U);
+  EXPECT_EQ(find(1e13, 1.), first);
+  EXPECT_EQ(known.size(), 3U);
 }
 
 TEST(StepLimit, NamesTheStiffestBody)
