@@ -143,11 +143,8 @@ namespace quoin
     {
       using L          = Lanes<lanes>;
       const char *base = reinterpret_cast<const char *>(motions);
-      Value row[4];
-      L::load_rows(base, 1, offset, row);
-      L::to_columns(row, gap);
-      L::load_rows(base + sizeof(Row), 1, offset, row);
-      L::to_columns(row, sum);
+      L::load_columns(base, offset, gap);
+      L::load_columns(base + sizeof(Row), offset, sum);
     }
 
     /** Adds @p equal + @p opposite to the forces on the lower nodes of the
@@ -158,11 +155,8 @@ namespace quoin
     {
       using L    = Lanes<lanes>;
       char *base = reinterpret_cast<char *>(forces);
-      Value row[4];
-      L::to_rows(opposite, row);
-      L::add_rows(base, offset, row);
-      L::to_rows(equal, row);
-      L::add_rows(base + sizeof(Row), offset, row);
+      L::add_columns(base, offset, opposite);
+      L::add_columns(base + sizeof(Row), offset, equal);
     }
 
     /** Adds to the forces on the nodes of @p chunk. */

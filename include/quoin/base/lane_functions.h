@@ -199,6 +199,47 @@ namespace quoin
         return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
     }
 
+    /** Components x and y of @p lanes pairs one after the other. */
+    static QUOIN_INLINE void load_pairs(const double *from, Value &x, Value &y)
+    {
+      if constexpr (lanes == 4)
+      {
+        // In halves, without permutations over all of a register.
+        const auto pair
+            = [&](int i) { return reinterpret_cast<const Two *>(from)[i]; };
+        const Value p02 = __builtin_shufflevector(pair(0), pair(2), 0, 1, 2, 3);
+        const Value p13 = __builtin_shufflevector(pair(1), pair(3), 0, 1, 2, 3);
+        x               = __builtin_shufflevector(p02, p13, 0, 4, 2, 6);
+        y               = __builtin_shufflevector(p02, p13, 1, 5, 3, 7);
+      }
+      else
+      {
+        const Value a = load(from), b = load(from + lanes);
+        x = even(a, b);
+        y = odd(a, b);
+      }
+    }
+    /** The inverse of load_pairs(). */
+    static QUOIN_INLINE void store_pairs(double *to, const Value &x,
+                                         const Value &y)
+    {
+      if constexpr (lanes == 4)
+      {
+        Two *pair       = reinterpret_cast<Two *>(to);
+        const Value p02 = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+        const Value p13 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+        pair[0]         = __builtin_shufflevector(p02, p02, 0, 1);
+        pair[1]         = __builtin_shufflevector(p13, p13, 0, 1);
+        pair[2]         = L::upper(p02);
+        pair[3]         = L::upper(p13);
+      }
+      else
+      {
+        store(to, interleave_low(x, y));
+        store(to + lanes, interleave_high(x, y));
+      }
+    }
+
     /** The vectors a, b (and c) in the order a0, b0, c0, a1, b1, ... */
     template <typename Vector>
     static QUOIN_INLINE void interleave(const Vector (&from)[2],
@@ -214,12 +255,13 @@ namespace quoin
       const Vector &a = from[0], &b = from[1], &c = from[2];
       if constexpr (lanes == 4)
       {
-        to[0] = __builtin_shufflevector(a, b, 0, 4, -1, 1);
-        to[0] = __builtin_shufflevector(to[0], c, 0, 1, 4, 3);
-        to[1] = __builtin_shufflevector(a, b, 5, -1, 2, 6);
-        to[1] = __builtin_shufflevector(to[1], c, 0, 5, 2, 3);
-        to[2] = __builtin_shufflevector(a, b, -1, 3, 7, -1);
-        to[2] = __builtin_shufflevector(to[2], c, 6, 1, 2, 7);
+        // Hardly any permutation over all of a register, which are slow.
+        const Vector ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+        const Vector ca = __builtin_shufflevector(c, a, 0, 5, 2, 7);
+        const Vector bc = __builtin_shufflevector(b, c, 1, 5, 3, 7);
+        to[0]           = __builtin_shufflevector(ab, ca, 0, 1, 4, 5);
+        to[1]           = L::halves(bc, ab);
+        to[2]           = __builtin_shufflevector(ca, bc, 2, 3, 6, 7);
       }
       else
       {
@@ -242,12 +284,12 @@ namespace quoin
       const Value &x = from[0], &y = from[1], &z = from[2];
       if constexpr (lanes == 4)
       {
-        to[0] = __builtin_shufflevector(x, y, 0, 3, 6, -1);
-        to[0] = __builtin_shufflevector(to[0], z, 0, 1, 2, 5);
-        to[1] = __builtin_shufflevector(x, y, 1, 4, 7, -1);
-        to[1] = __builtin_shufflevector(to[1], z, 0, 1, 2, 6);
-        to[2] = __builtin_shufflevector(x, y, 2, 5, -1, -1);
-        to[2] = __builtin_shufflevector(to[2], z, 0, 1, 4, 7);
+        const Value ab = L::halves(x, y);
+        const Value ca = __builtin_shufflevector(x, z, 2, 3, 4, 5);
+        const Value bc = L::halves(y, z);
+        to[0]          = __builtin_shufflevector(ab, ca, 0, 5, 2, 7);
+        to[1]          = __builtin_shufflevector(ab, bc, 1, 4, 3, 6);
+        to[2]          = __builtin_shufflevector(ca, bc, 0, 5, 2, 7);
       }
       else
       {

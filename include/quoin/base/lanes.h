@@ -175,8 +175,8 @@ namespace quoin
       const Value p13 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
       pair(base + offset[0]) += __builtin_shufflevector(p02, p02, 0, 1);
       pair(base + offset[1]) += __builtin_shufflevector(p13, p13, 0, 1);
-      pair(base + offset[2]) += __builtin_shufflevector(p02, p02, 2, 3);
-      pair(base + offset[3]) += __builtin_shufflevector(p13, p13, 2, 3);
+      pair(base + offset[2]) += upper(p02);
+      pair(base + offset[3]) += upper(p13);
     }
 
     /** Loads the four doubles of each lane at base + scale * offset. */
@@ -244,6 +244,61 @@ namespace quoin
     {
       for (int l = 0; l < 4; ++l)
         *reinterpret_cast<Value *>(base + offset[l]) += row[l];
+    }
+
+    /** load_rows() and to_columns(), in halves of rows, without permutations
+        over all of a register. */
+    static QUOIN_INLINE void load_columns(const char *base,
+                                          const std::uint16_t *offset,
+                                          Value (&column)[4])
+    {
+      for (int half = 0; half < 2; ++half, base += sizeof(Pair))
+      {
+        const Pair p0 = pair(base + offset[0]), p1 = pair(base + offset[1]);
+        const Pair p2 = pair(base + offset[2]), p3 = pair(base + offset[3]);
+        const Value p02      = __builtin_shufflevector(p0, p2, 0, 1, 2, 3);
+        const Value p13      = __builtin_shufflevector(p1, p3, 0, 1, 2, 3);
+        column[2 * half]     = __builtin_shufflevector(p02, p13, 0, 4, 2, 6);
+        column[2 * half + 1] = __builtin_shufflevector(p02, p13, 1, 5, 3, 7);
+      }
+    }
+
+    /** to_rows() and add_rows(), in halves of rows. */
+    static QUOIN_INLINE void add_columns(char *base,
+                                         const std::uint16_t *offset,
+                                         const Value (&column)[4])
+    {
+      for (int half = 0; half < 2; ++half, base += sizeof(Pair))
+      {
+        const Value &x = column[2 * half], &y = column[2 * half + 1];
+        const Value p02 = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+        const Value p13 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+        pair(base + offset[0]) += __builtin_shufflevector(p02, p02, 0, 1);
+        pair(base + offset[1]) += __builtin_shufflevector(p13, p13, 0, 1);
+        pair(base + offset[2]) += upper(p02);
+        pair(base + offset[3]) += upper(p13);
+      }
+    }
+
+    /** The upper two lanes. GCC 12 takes a slower permutation for them where it
+        is not told. */
+    static QUOIN_INLINE Pair upper(const Value &a)
+    {
+#ifdef __AVX__
+      return _mm256_extractf128_pd(a, 1);
+#else
+      return __builtin_shufflevector(a, a, 2, 3);
+#endif
+    }
+    /** The lower lanes of @p a and the upper ones of @p b, likewise. */
+    template <typename Vector>
+    static QUOIN_INLINE Vector halves(const Vector &a, const Vector &b)
+    {
+#ifdef __AVX__
+      return (Vector)_mm256_blend_pd((__m256d)a, (__m256d)b, 0b1100);
+#else
+      return __builtin_shufflevector(a, b, 0, 1, 6, 7);
+#endif
     }
 
     static QUOIN_INLINE const Pair &pair(const char *p)
@@ -456,6 +511,24 @@ namespace quoin
         at(lane_of_row(r)) += low(row[r]);
       for (int r = 0; r < 4; ++r)
         at(lane_of_row(r) + 2) += high(row[r]);
+    }
+
+    static QUOIN_INLINE void load_columns(const char *base,
+                                          const std::uint16_t *offset,
+                                          Value (&column)[4])
+    {
+      Value row[4];
+      load_rows(base, 1, offset, row);
+      to_columns(row, column);
+    }
+
+    static QUOIN_INLINE void add_columns(char *base,
+                                         const std::uint16_t *offset,
+                                         const Value (&column)[4])
+    {
+      Value row[4];
+      to_rows(column, row);
+      add_rows(base, offset, row);
     }
   };
 } // namespace quoin

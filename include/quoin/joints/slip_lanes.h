@@ -31,8 +31,9 @@ namespace quoin
         return { { F::load(from) } };
       else
       {
-        const Value a = F::load(from), b = F::load(from + lanes);
-        return { { F::even(a, b), F::odd(a, b) } };
+        SlipLanes slips;
+        F::load_pairs(from, slips.component[0], slips.component[1]);
+        return slips;
       }
     }
     QUOIN_INLINE void store(double *to) const
@@ -40,10 +41,7 @@ namespace quoin
       if constexpr (n == 1)
         F::store(to, component[0]);
       else
-      {
-        F::store(to, F::interleave_low(component[0], component[1]));
-        F::store(to + lanes, F::interleave_high(component[0], component[1]));
-      }
+        F::store_pairs(to, component[0], component[1]);
     }
     /** Stores the lanes of @p mask; the others keep what they have. */
     QUOIN_INLINE void store(double *to, const Bits &mask) const
@@ -136,6 +134,14 @@ namespace quoin
         return F::absolute(a.component[0]);
       else
         return F::square_root(dot(a, a));
+    }
+    /** Whether magnitude(a) <= @p limit, in space without a root. */
+    friend QUOIN_INLINE Bits is_within(const SlipLanes &a, const Value &limit)
+    {
+      if constexpr (n == 1)
+        return F::absolute(a.component[0]) <= limit;
+      else
+        return dot(a, a) <= limit * F::absolute(limit);
     }
     /** @p size: magnitude(a) */
     friend QUOIN_INLINE SlipLanes direction_of(const SlipLanes &a,

@@ -58,7 +58,6 @@ namespace quoin
       points.tau
           = shear_stiffness
             * (points.slip - Slips::load(points.slips_of(at.plastic_slip)));
-      const Value size = magnitude(points.tau);
       const Bits state = points.load_state();
       const Value none{};
       // Intact points have all of their bond and no crack. Not to load these
@@ -67,12 +66,13 @@ namespace quoin
         if (F::all(state == 0))
         {
           points.elastic
-              = is_elastic(points, points.sigma, size, none + 1., none);
+              = is_elastic(points, points.sigma, points.tau, none + 1., none);
           return points.elastic;
         }
-      points.elastic = is_elastic(
-          points, points.sigma, size, F::load(points.of(at.internal[bond])),
-          F::load(points.of(at.internal[crack_opening])));
+      points.elastic
+          = is_elastic(points, points.sigma, points.tau,
+                       F::load(points.of(at.internal[bond])),
+                       F::load(points.of(at.internal[crack_opening])));
       return points.elastic
              & ((state == 0) | (state == elastic_state(points.sigma)));
     }
@@ -124,28 +124,27 @@ namespace quoin
       return residual_friction + friction_loss * bond;
     }
 
-    /** See CompositeLaw::update_elastic(). @p tau: size of the shear traction,
-        here and below. */
+    /** See CompositeLaw::update_elastic(). */
     QUOIN_INLINE Bits is_elastic(const PointLanes<lanes, dim> &points,
-                                 const Value &sigma, const Value &tau,
+                                 const Value &sigma, const Slips &tau,
                                  const Value &bond_now,
                                  const Value &crack_opening) const
     {
-      const Bits below
-          = (sigma <= tension * bond_now)
-            & (tau <= cohesion * bond_now - sigma * friction_at(bond_now))
-            & ~((sigma < 0.) & (crack_opening > 0.));
-      return below & within_cap(points, sigma, tau, below);
+      const Bits below = (sigma <= tension * bond_now)
+                         & is_within(tau, cohesion * bond_now
+                                              - sigma * friction_at(bond_now))
+                         & ~((sigma < 0.) & (crack_opening > 0.));
+      return below & within_cap(points, sigma, dot(tau, tau), below);
     }
 
     /** Whether tractions leave the cap as it was, for the points of @p asked.
-     */
+        @p squared: that of the shear traction. */
     QUOIN_INLINE Bits within_cap(const PointLanes<lanes, dim> &points,
-                                 const Value &sigma, const Value &tau,
+                                 const Value &sigma, const Value &squared,
                                  const Bits &asked) const
     {
       const Value load
-          = (cap_normal * sigma + cap_offset) * sigma + cap_shear * tau * tau;
+          = (cap_normal * sigma + cap_offset) * sigma + cap_shear * squared;
       const Bits is_far = load <= lowest_load;
       if (!has_cap || !F::any(asked & ~is_far))
         return is_far;
@@ -218,8 +217,7 @@ namespace quoin
                                                     : plastic_opening - closed)
                               : plastic_opening;
         sigma = closes ? kn * (opening_trial - plastic_opening) : sigma;
-        sticks
-            |= closes & is_elastic(points, sigma, size, bond_old, crack_left);
+        sticks |= closes & is_elastic(points, sigma, tau, bond_old, crack_left);
       }
 
       const Slips direction = direction_of(tau, size);
@@ -353,7 +351,7 @@ namespace quoin
       }
       const Value left = tau - ks * slip;
       found &= sigma - law.tension * bond_now <= most;
-      found &= within_cap(points, sigma, left, found);
+      found &= within_cap(points, sigma, left * left, found);
       flow.tau  = found ? left : flow.tau;
       flow.slip = found ? slip : flow.slip;
       flow.bond = found ? bond_now : flow.bond;
@@ -481,7 +479,7 @@ namespace quoin
         sigma = active ? sigma_next : sigma;
         tau   = active ? tau_next : tau;
       }
-      found &= within_cap(points, sigma, tau, found);
+      found &= within_cap(points, sigma, tau * tau, found);
       flow.sigma   = found ? sigma : flow.sigma;
       flow.tau     = found ? tau : flow.tau;
       flow.opening = found ? opening : flow.opening;

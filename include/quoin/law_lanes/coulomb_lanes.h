@@ -41,9 +41,10 @@ namespace quoin
       points.tau
           = shear_stiffness
             * (points.slip - Slips::load(points.slips_of(at.plastic_slip)));
-      points.elastic = (points.sigma <= tension)
-                       & (magnitude(points.tau) <= F::maximum(
-                              none, cohesion - points.sigma * friction));
+      points.elastic
+          = (points.sigma <= tension)
+            & is_within(points.tau,
+                        F::maximum(none, cohesion - points.sigma * friction));
       return points.elastic & (intact | (state == number(JointState::slipped)));
     }
 

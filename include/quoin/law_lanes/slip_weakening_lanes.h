@@ -35,8 +35,9 @@ namespace quoin
             * (points.slip - Slips::load(points.slips_of(at.plastic_slip)));
       points.elastic
           = (points.sigma <= 0.)
-            & (magnitude(points.tau) <= strength(
-                   points.sigma, F::load(points.of(at.internal[slipped]))));
+            & is_within(points.tau,
+                        strength(points.sigma,
+                                 F::load(points.of(at.internal[slipped]))));
       return points.elastic
              & ((state == number(JointState::intact))
                 | (state == number(JointState::slipped)));
