@@ -261,7 +261,7 @@ namespace quoin
         const Vector bc = __builtin_shufflevector(b, c, 1, 5, 3, 7);
         to[0]           = __builtin_shufflevector(ab, ca, 0, 1, 4, 5);
         to[1]           = L::halves(bc, ab);
-        to[2]           = __builtin_shufflevector(ca, bc, 2, 3, 6, 7);
+        to[2]           = L::uppers(ca, bc);
       }
       else
       {

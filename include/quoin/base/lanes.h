@@ -228,8 +228,8 @@ namespace quoin
       const Value cd_1 = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
       column[0]        = __builtin_shufflevector(ab_0, cd_0, 0, 1, 4, 5);
       column[1]        = __builtin_shufflevector(ab_1, cd_1, 0, 1, 4, 5);
-      column[2]        = __builtin_shufflevector(ab_0, cd_0, 2, 3, 6, 7);
-      column[3]        = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7);
+      column[2]        = uppers(ab_0, cd_0);
+      column[3]        = uppers(ab_1, cd_1);
     }
 
     /** The inverse of to_columns(). */
@@ -298,6 +298,18 @@ namespace quoin
       return (Vector)_mm256_blend_pd((__m256d)a, (__m256d)b, 0b1100);
 #else
       return __builtin_shufflevector(a, b, 0, 1, 6, 7);
+#endif
+    }
+
+    /** The upper lanes of both. */
+    template <typename Vector>
+    static QUOIN_INLINE Vector uppers(const Vector &a, const Vector &b)
+    {
+#ifdef __AVX__
+      return (Vector)_mm256_blend_pd(_mm256_castpd128_pd256(upper((Value)a)),
+                                     (__m256d)b, 0b1100);
+#else
+      return __builtin_shufflevector(a, b, 2, 3, 6, 7);
 #endif
     }
 
