@@ -39,15 +39,15 @@ namespace quoin
       return naming(parameters.file,
                     [&]()
                     {
-                      const auto absent
+                      const auto absence
                           = system.construction
-                                ? system.construction->absent_in_the_end()
-                                : std::vector<bool>(
+                                ? system.construction->absence()
+                                : std::vector<double>(
                                     system.nodes->table().group_names.size());
                       return Histories<dim>(
                           parameters.histories, *system.model, *system.solver,
-                          system.boundary_geometry, parameters.boundary, absent,
-                          system.named_blocks);
+                          system.boundary_geometry, parameters.boundary,
+                          absence, system.named_blocks);
                     });
     }
   } // namespace

@@ -357,14 +357,20 @@ namespace quoin
   }
 
   template <int dim>
-  std::vector<bool> Construction<dim>::absent_in_the_end() const
+  std::vector<double> Construction<dim>::absence() const
   {
     std::vector<bool> absent = absent_at_start;
+    std::vector<double> result(absent.size(), 0.);
     for (const Step &step : steps)
       for (unsigned int g = 0; g < absent.size(); ++g)
+      {
         if (step.excavate[g] || step.fill[g])
           absent[g] = step.excavate[g];
-    return absent;
+        result[g] += absent[g] ? 1. / steps.size() : 0.;
+      }
+    for (unsigned int g = 0; g < absent.size(); ++g)
+      result[g] += absent[g] ? 2. : 0.;
+    return result;
   }
 
   template <int dim>

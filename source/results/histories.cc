@@ -27,11 +27,10 @@ namespace quoin
                             const Model<dim> &model, const Solver<dim> &solver,
                             const BoundaryGeometry &geometry,
                             const BoundaryElementParameters &boundaries,
-                            const std::vector<bool> &absent_in_the_end,
+                            const std::vector<double> &absence,
                             const std::vector<NamedBlock> &named_blocks)
     : n_columns(parameters.size()), model(model), solver(solver),
-      communicator(model.nodes().communicator()),
-      absent_in_the_end(absent_in_the_end)
+      communicator(model.nodes().communicator()), absence(absence)
   {
     std::vector<HistoryParameters> boundary_probes, block_probes;
     for (const HistoryParameters &history : parameters)
@@ -190,10 +189,10 @@ namespace quoin
     case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
-      probe.at = find_history_point(model, wanted, absent_in_the_end);
+      probe.at = find_history_point(model, wanted, absence);
       return;
     case HistoryQuantity::joint:
-      probe.at = find_history_point(model, wanted, absent_in_the_end);
+      probe.at = find_history_point(model, wanted, absence);
       return check_law(probe);
     case HistoryQuantity::joint_force:
       return find_surface(probe);

@@ -243,7 +243,9 @@ namespace quoin
           "of the nearest cell, joint point or boundary element; with boundary "
           "elements alone it is the point in the domain, or the reference "
           "point of moments. Where blocks meet, the block that contains the "
-          "point is taken, or else the lower or left one [m]",
+          "point is taken, or else, of those and of joints that end there, "
+          "that which is there in more of the stages, on the wall of an "
+          "excavation that of the rock, or else the lower or left one [m]",
           [&](const ParameterSection &from)
           { history.point_has_z = read_point(from, "Point", history.point); });
       if (entries.reads_if(history.is_of_two_points()))

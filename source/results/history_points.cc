@@ -21,8 +21,8 @@ namespace quoin
     /**
      * The nearest node, cell or joint point of this rank. Among equal distances
      * one of a block that is present in the end, then of one that contains the
-     * point, then the lower, then the left one is chosen, as numbers depend on
-     * the number of ranks.
+     * point, then that of the smallest absence, then the lower, then the left
+     * one is chosen, as numbers depend on the number of ranks.
      */
     template <int dim>
     struct Nearest
@@ -144,12 +144,12 @@ namespace quoin
     }
 
     /** What of the nodes at the least distance says which comes first: of their
-        block, which may lie on several ranks and is @p absent in the end or
-        not. Collective. */
+        block, which may lie on several ranks, with its @p absence, a share
+        below 1 or 2 more. Collective. */
     template <int dim>
     typename Nearest<dim>::Rest
     place_of_block(const Model<dim> &model, const unsigned int block,
-                   const dealii::Point<dim> &point, const bool absent)
+                   const dealii::Point<dim> &point, const double absence)
     {
       const NodeMap<dim> &nodes = model.nodes();
       const unsigned int part   = nodes.blocks().find(block);
@@ -175,15 +175,14 @@ namespace quoin
       for (unsigned int d = 0; d < dim; ++d)
         centre[d] = sums[d] / sums[dim];
       return Nearest<dim>::place(
-          (absent ? 2. : 0.)
-              + (MPI::max(inside, nodes.communicator()) > 0 ? 0. : 1.),
+          absence + (MPI::max(inside, nodes.communicator()) > 0 ? 0. : 1.),
           centre);
     }
 
     /** Collective. */
     template <int dim>
     void consider_nodes(const Model<dim> &model,
-                        const std::vector<bool> &absent_in_the_end,
+                        const std::vector<double> &absence,
                         Nearest<dim> &nearest)
     {
       const NodeMap<dim> &nodes = model.nodes();
@@ -205,27 +204,45 @@ namespace quoin
       for (unsigned int b = 0; b < has_one.size(); ++b)
         if (has_one[b])
           places[b] = place_of_block(model, b, nearest.point,
-                                     absent_in_the_end[nodes.table().group[b]]);
+                                     absence[nodes.table().group[b]]);
       for (unsigned int i = 0; i < nodes.n_owned(); ++i)
         if (distance(i) == least)
           nearest.consider(nodes.point(i), i,
                            [&] { return places.at(nodes.block_of_node(i)); });
     }
 
-    /** Whether @p point lies in or on a block that is not absent in the end.
-        Collective. */
     template <int dim>
-    bool is_on_what_stays(const NodeMap<dim> &nodes,
-                          const std::vector<bool> &absent_in_the_end,
-                          const dealii::Point<dim> &point)
+    double absence_of_cell(const NodeMap<dim> &nodes,
+                           const std::vector<double> &absence,
+                           const unsigned int cell)
     {
-      unsigned int stays = 0;
-      for (unsigned int c = 0; c < nodes.cells().size() && stays == 0; ++c)
-        if (!absent_in_the_end[nodes.table()
-                                   .group[nodes.blocks().block_of_cell(c)]]
-            && outside(nodes, c, point) == 0.)
-          stays = 1;
-      return dealii::Utilities::MPI::max(stays, nodes.communicator()) > 0;
+      return absence[nodes.table().group[nodes.blocks().block_of_cell(cell)]];
+    }
+
+    /** The least absence of the blocks in or on which @p point lies; the
+        largest number: it lies in none. Collective. */
+    template <int dim>
+    double least_absence(const NodeMap<dim> &nodes,
+                         const std::vector<double> &absence,
+                         const dealii::Point<dim> &point)
+    {
+      double least = std::numeric_limits<double>::max();
+      for (unsigned int c = 0; c < nodes.cells().size() && least > 0.; ++c)
+        if (const double own = absence_of_cell(nodes, absence, c);
+            own < least && outside(nodes, c, point) == 0.)
+          least = own;
+      return dealii::Utilities::MPI::min(least, nodes.communicator());
+    }
+
+    /** The larger absence of the two blocks at joint @p face. */
+    template <int dim>
+    double absence_of_joint(const NodeMap<dim> &nodes,
+                            const std::vector<double> &absence,
+                            const JointNodes<dim> &face)
+    {
+      const auto &group = nodes.table().group;
+      return std::max(absence[group[face.blocks[0]]],
+                      absence[group[face.blocks[1]]]);
     }
 
     /** Whether @p key is the least of all ranks, on the first rank that has it:
@@ -249,12 +266,11 @@ namespace quoin
      * Sets the nodes of @p at: the corners of the cell that contains the point
      * in the block of the nearest node, that of @p node, or there nearly does,
      * as walls of excavations are curved and coordinates rounded; else of one
-     * in another block, those that are not absent in the end first; or the
-     * nearest node. Collective.
+     * in another block, those of the smallest absence first; or the nearest
+     * node. Collective.
      */
     template <int dim>
-    void find_host(const Model<dim> &model,
-                   const std::vector<bool> &absent_in_the_end,
+    void find_host(const Model<dim> &model, const std::vector<double> &absence,
                    const Nearest<dim> &node, HistoryPoint &at)
     {
       /** Distance that is rounding, by the size of coordinates [-]. */
@@ -269,14 +285,15 @@ namespace quoin
       const bool is_at_node    = distance <= rounding * node.point.norm();
       const unsigned int block = MPI::max(
           at.here ? nodes.block_of_node(node.entity) : 0U, communicator);
-      // Not on the wall of what goes, whose node may be nearest.
-      const bool stays = is_on_what_stays(nodes, absent_in_the_end, node.point);
+      // Not in what is absent longer, on its border, where its node may be
+      // nearest.
+      const double least = least_absence(nodes, absence, node.point);
       Nearest<dim> host(node.point);
       for (unsigned int c = 0; c < nodes.cells().size() && !is_at_node; ++c)
       {
         const unsigned int own = nodes.blocks().block_of_cell(c);
-        const bool goes        = absent_in_the_end[nodes.table().group[own]];
-        if (stays && goes)
+        const double missing   = absence_of_cell(nodes, absence, c);
+        if (missing > least)
           continue;
         const double beyond
             = outside(nodes, c, node.point, own == block ? most_outside : 0.);
@@ -286,10 +303,9 @@ namespace quoin
         for (const auto &corner : corners(nodes, c))
           centroid += corner / (dim + 1.);
         // In place of a distance.
-        const double last = goes ? 1. : 0.;
         host.consider(
             node.point, c, [&] { return Nearest<dim>::place(0., centroid); },
-            own == block ? beyond : 1. + last);
+            own == block ? beyond : 1. + missing);
       }
       if (MPI::min(host.key[0], communicator) == Nearest<dim>::none)
       {
@@ -318,24 +334,18 @@ namespace quoin
               { nodes.exchange().local(global), all[2 * k + 1] });
     }
 
-    /** Considers cells by their centroids; on the wall of what is absent in the
-        end those of the blocks beside it alone. Collective. */
+    /** Considers cells by their centroids; at the border of blocks those with
+        the smallest absence alone. Collective. */
     template <int dim>
     void consider_cells(const Model<dim> &model,
-                        const std::vector<bool> &absent_in_the_end,
+                        const std::vector<double> &absence,
                         Nearest<dim> &nearest)
     {
       const NodeMap<dim> &nodes = model.nodes();
-      const auto is_absent      = [&](const unsigned int cell)
-      {
-        return absent_in_the_end
-            [nodes.table().group[nodes.blocks().block_of_cell(cell)]];
-      };
-      const bool stays
-          = is_on_what_stays(nodes, absent_in_the_end, nearest.point);
+      const double least        = least_absence(nodes, absence, nearest.point);
       for (unsigned int c = 0; c < nodes.cells().size(); ++c)
       {
-        if (stays && is_absent(c))
+        if (absence_of_cell(nodes, absence, c) > least)
           continue;
         dealii::Point<dim> centroid;
         for (const auto &corner : corners(nodes, c))
@@ -345,9 +355,11 @@ namespace quoin
       }
     }
 
-    /** Considers joint points on surface @p name; on all if it is empty. */
-    void consider_joint_points(const Model<3> &model, const std::string &name,
-                               Nearest<3> &nearest)
+    /** Considers joint points on surface @p name; on all if it is empty. At a
+        node of several joints that of the smallest absence comes first. */
+    void consider_joint_points(const Model<3> &model,
+                               const std::vector<double> &absence,
+                               const std::string &name, Nearest<3> &nearest)
     {
       const NodeMap<3> &nodes = model.nodes();
       const auto &faces       = model.joints().faces();
@@ -359,17 +371,20 @@ namespace quoin
         dealii::Point<3> centroid;
         for (const unsigned int node : face.lower)
           centroid += nodes.point(node) / 3.;
+        const double order = absence_of_joint(nodes, absence, face);
         for (unsigned int k = 0; k < 3; ++k)
           nearest.consider(nodes.point(face.lower[k]), 3 * i + k,
-                           [&] { return Nearest<3>::place(0., centroid); });
+                           [&] { return Nearest<3>::place(order, centroid); });
       }
     }
 
-    /** Considers joint points on @p curve; on all curves if it is empty. Of the
-        two ranks of a joint that of its lower face comes first, which knows
-        what lies on it. */
-    void consider_joint_points(const Model<2> &model, const std::string &curve,
-                               Nearest<2> &nearest)
+    /** Considers joint points on @p curve; on all curves if it is empty. At a
+        node of several joints that of the smallest absence comes first, of the
+        two ranks of a joint that of its lower face, which knows what lies on
+        it. */
+    void consider_joint_points(const Model<2> &model,
+                               const std::vector<double> &absence,
+                               const std::string &curve, Nearest<2> &nearest)
     {
       const NodeMap<2> &nodes = model.nodes();
       for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
@@ -378,16 +393,16 @@ namespace quoin
             = nodes.faces().joints[model.joints().segments()[i].face];
         if (!curve.empty() && nodes.table().joint_name(face.name) != curve)
           continue;
+        const double order = absence_of_joint(nodes, absence, face)
+                             + (face.is_own[0] ? 0. : 1.);
         for (unsigned int k = 0; k < 2; ++k)
         {
           const auto &here  = nodes.point(face.lower[k]);
           const auto &other = nodes.point(face.lower[1 - k]);
           nearest.consider(here, 2 * i + k,
-                           [&]
-                           {
+                           [&] {
                              return Nearest<2>::place(
-                                 face.is_own[0] ? 0. : 1.,
-                                 dealii::Point<2>(0.5 * (here + other)));
+                                 order, dealii::Point<2>(0.5 * (here + other)));
                            });
         }
       }
@@ -436,7 +451,7 @@ namespace quoin
   template <int dim>
   HistoryPoint find_history_point(const Model<dim> &model,
                                   const HistoryParameters &wanted,
-                                  const std::vector<bool> &absent_in_the_end)
+                                  const std::vector<double> &absence)
   {
     dealii::Point<dim> point;
     for (unsigned int d = 0; d < dim; ++d)
@@ -446,26 +461,26 @@ namespace quoin
     {
     case HistoryQuantity::displacement:
     case HistoryQuantity::velocity:
-      consider_nodes(model, absent_in_the_end, nearest);
+      consider_nodes(model, absence, nearest);
       break;
     case HistoryQuantity::joint:
-      consider_joint_points(model, wanted.curve, nearest);
+      consider_joint_points(model, absence, wanted.curve, nearest);
       break;
     default:
-      consider_cells(model, absent_in_the_end, nearest);
+      consider_cells(model, absence, nearest);
     }
     HistoryPoint result
         = { nearest.entity, is_owner(model.nodes(), wanted, nearest.key) };
     if (wanted.quantity == HistoryQuantity::displacement
         || wanted.quantity == HistoryQuantity::velocity)
-      find_host(model, absent_in_the_end, nearest, result);
+      find_host(model, absence, nearest, result);
     return result;
   }
 
   template HistoryPoint find_history_point(const Model<2> &,
                                            const HistoryParameters &,
-                                           const std::vector<bool> &);
+                                           const std::vector<double> &);
   template HistoryPoint find_history_point(const Model<3> &,
                                            const HistoryParameters &,
-                                           const std::vector<bool> &);
+                                           const std::vector<double> &);
 } // namespace quoin

@@ -58,8 +58,10 @@ namespace quoin
     /** Called instead when @p state is one within stage @p stage. */
     void resume_stage(unsigned int stage, const State<dim> &state);
 
-    /** Whether each physical surface is absent after the last stage. */
-    std::vector<bool> absent_in_the_end() const;
+    /** Of each physical surface the share of the stages in which it is absent,
+        and 2 more where it is absent after the last one [-]: histories at the
+        border of two are of that with the smaller value. */
+    std::vector<double> absence() const;
 
     /** Restores the model of the start of the run. */
     void restart();

@@ -35,8 +35,7 @@ namespace quoin
   public:
     /**
      * @p geometry: of the boundary elements of @p boundaries.
-     * @p absent_in_the_end: whether each physical surface is absent in the end;
-     * its nodes are chosen last among those at the same position.
+     * @p absence: of each physical surface, see find_history_point().
      * @p named_blocks: all that histories of blocks name. Throws an InputError
      * about loads and curves that do not exist.
      */
@@ -44,7 +43,7 @@ namespace quoin
               const Model<dim> &model, const Solver<dim> &solver,
               const BoundaryGeometry &geometry,
               const BoundaryElementParameters &boundaries,
-              const std::vector<bool> &absent_in_the_end,
+              const std::vector<double> &absence,
               const std::vector<NamedBlock> &named_blocks = {});
 
     /** "time [s]" and "name [unit]" of each column. */
@@ -151,7 +150,7 @@ namespace quoin
     std::unique_ptr<BlockHistories> of_blocks;
     MPI_Comm communicator;
     /** Flags of physical surfaces. */
-    const std::vector<bool> absent_in_the_end;
+    const std::vector<double> absence;
     std::array<double, 2> load_clock{}; /**< time [s] and rate [-] */
     double n_outside = 0.;              /**< blocks that have left the box */
     /** Displacement controlled by a load pattern, NaN without [m]. */

@@ -31,15 +31,16 @@ namespace quoin
    * @p wanted, a history of one of these. Displacements and velocities are
    * interpolated in the cell that contains the point, linearly, which is exact
    * in rigid blocks, or nearly does; else they are those of the nearest node.
-   * @p absent_in_the_end: whether each physical surface is absent in the end;
-   * its nodes and cells are not taken on its wall.
+   * @p absence: of each physical surface, Construction::absence(). Where two
+   * meet, nodes, cells and joints of that with the smaller one are taken: on
+   * the wall of an excavation, lined later or not, those of the rock.
    * Throws an InputError if the point is far from the model or there is no such
    * joint. Collective.
    */
   template <int dim>
   HistoryPoint find_history_point(const Model<dim> &model,
                                   const HistoryParameters &wanted,
-                                  const std::vector<bool> &absent_in_the_end);
+                                  const std::vector<double> &absence);
 } // namespace quoin
 
 #endif

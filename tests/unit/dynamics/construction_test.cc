@@ -98,6 +98,28 @@ namespace
   }
 } // namespace
 
+TEST(Construction, AbsenceIsTheShareOfStagesAndMoreInTheEnd)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  const auto absence_of = [&](const std::vector<StageParameters> &stages,
+                              const std::vector<std::string> &at_start = {})
+  {
+    ModelParameters parameters = without_stress();
+    parameters.absent_groups   = at_start;
+    TestRun run(mesh, parameters, {});
+    return Construction<2>(run.model, stages).absence();
+  };
+  using Absence              = std::vector<double>;
+  const StageParameters rest = stage_of({}, {}),
+                        dig  = stage_of({ "upper" }, {}),
+                        line = stage_of({}, { "upper" });
+  EXPECT_EQ(absence_of({ rest, rest }), Absence({ 0., 0. }));
+  EXPECT_EQ(absence_of({ rest, dig }), Absence({ 0., 2.5 }));
+  EXPECT_EQ(absence_of({ rest, dig, rest, line }), Absence({ 0., 0.5 }));
+  EXPECT_EQ(absence_of({ rest, line }, { "upper" }), Absence({ 0., 0.5 }));
+}
+
 TEST(Construction, ForcesOfWhatIsTakenStay)
 {
   for (const bool rigid : { false, true })

@@ -62,35 +62,95 @@ TEST(Histories, AtAJointTheyAreOfOneBlockWhateverTheNumbers)
 }
 
 // Between two nodes of the wall, where no distance to a node is zero.
-TEST(Histories, OnAWallTheyAreOfTheBlockThatStays)
+TEST(Histories, OnAWallTheyAreOfTheBlockThatIsThereLonger)
 {
   using Q = HistoryQuantity;
   BlockMesh<2> mesh;
   make_stack(mesh, 3, 2);
   TestRun run(mesh, two_blocks(), {});
   HistoryParameters wanted;
-  for (const double x : { 0.2, 0.5, 0.8, 1.3, 2., 2.7 })
-    for (const unsigned int goes : { 0U, 1U })
-    {
-      std::vector<bool> absent(2, false);
-      absent[goes]          = true;
-      wanted.point          = { { x, 2. } };
-      wanted.quantity       = Q::displacement;
-      const HistoryPoint at = find_history_point(run.model, wanted, absent);
-      ASSERT_FALSE(at.nodes.empty());
-      for (const auto &[node, weight] : at.nodes)
+  // Absent in the end, and placed by a stage.
+  for (const double missing : { 2.5, 0.5 })
+    for (const double x : { 0.2, 0.5, 0.8, 1.3, 2., 2.7 })
+      for (const unsigned int goes : { 0U, 1U })
       {
-        if (std::abs(weight) < 1e-12)
-          continue;
-        EXPECT_EQ(run.model.nodes().block_of_node(node), 1 - goes)
+        std::vector<double> absence(2, 0.);
+        absence[goes]         = missing;
+        wanted.point          = { { x, 2. } };
+        wanted.quantity       = Q::displacement;
+        const HistoryPoint at = find_history_point(run.model, wanted, absence);
+        ASSERT_FALSE(at.nodes.empty());
+        for (const auto &[node, weight] : at.nodes)
+        {
+          if (std::abs(weight) < 1e-12)
+            continue;
+          EXPECT_EQ(run.model.nodes().block_of_node(node), 1 - goes)
+              << "at x = " << x;
+        }
+        wanted.quantity = Q::stress;
+        const unsigned int cell
+            = find_history_point(run.model, wanted, absence).entity;
+        EXPECT_EQ(run.model.nodes().blocks().block_of_cell(cell), 1 - goes)
             << "at x = " << x;
       }
-      wanted.quantity = Q::stress;
-      const unsigned int cell
-          = find_history_point(run.model, wanted, absent).entity;
-      EXPECT_EQ(run.model.nodes().blocks().block_of_cell(cell), 1 - goes)
-          << "at x = " << x;
+}
+
+// Beside the wall of a lining the node of the wall is the nearest.
+TEST(Histories, InABlockThatIsPlacedTheyAreOfIt)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  HistoryParameters wanted;
+  wanted.quantity = HistoryQuantity::displacement;
+  for (const unsigned int placed : { 0U, 1U })
+  {
+    std::vector<double> absence(2, 0.);
+    absence[placed]       = 0.5;
+    wanted.point          = { { 1.02, placed == 0 ? 1.97 : 2.03 } };
+    const HistoryPoint at = find_history_point(run.model, wanted, absence);
+    ASSERT_FALSE(at.nodes.empty());
+    for (const auto &[node, weight] : at.nodes)
+      EXPECT_EQ(run.model.nodes().block_of_node(node), placed);
+  }
+}
+
+TEST(Histories, WhereAJointCrossesAWallTheyAreOfThePartThatIsThereLonger)
+{
+  MeshData<2> data;
+  for (const unsigned int j : { 0U, 1U })
+    for (const unsigned int i : { 0U, 1U })
+    {
+      const double x = 2. * i, y = 2. * j;
+      add_grid(data, 2, 2, i == 0 ? "lower" : "upper", x, y);
+      if (j == 1)
+        add_curve(data, "bed", x, y, x + 2., y);
+      if (i == 1)
+        add_curve(data, "wall", x, y, x, y + 2.);
     }
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  ModelParameters parameters = two_blocks();
+  parameters.joints
+      = { elastic_joint(2e10, 1e10, "bed"), elastic_joint(2e10, 1e10, "wall") };
+  TestRun run(mesh, parameters, {});
+  const NodeMap<2> &nodes = run.model.nodes();
+  HistoryParameters wanted;
+  wanted.quantity = HistoryQuantity::joint;
+  wanted.point    = { { 2., 2. } };
+  for (const std::string curve : { "bed", "" })
+    for (const double missing : { 2.5, 0.5 })
+      for (const unsigned int goes : { 0U, 1U })
+      {
+        std::vector<double> absence(2, 0.);
+        absence[goes] = missing;
+        wanted.curve  = curve;
+        const unsigned int point
+            = find_history_point(run.model, wanted, absence).entity;
+        const unsigned int face = run.model.joints().segments()[point / 2].face;
+        for (const unsigned int block : nodes.faces().joints[face].blocks)
+          EXPECT_EQ(nodes.table().group[block], 1 - goes) << "on " << curve;
+      }
 }
 
 namespace
