@@ -43,19 +43,34 @@ namespace quoin
                          });
     }
 
-    /** Whether @p course, counted from 0, begins with a cut unit or header. */
+    /** A course: of its storey, and of the bond, which goes on through storeys
+        without a slab between them; both counted from 0. */
+    struct Course
+    {
+      const WallStorey &storey;
+      unsigned int number;
+      unsigned int of_bond;
+    };
+
+    /** Whether @p course of the bond begins with a cut unit or header. */
     bool is_shifted(const WallParameters &wall, const unsigned int course)
     {
       return (course % 2 == 1) != wall.begins_shifted;
     }
 
-    /** Whether all units of @p course, counted from 0, are headers. */
-    bool is_header_course(const WallParameters &wall, const WallStorey &storey,
-                          const unsigned int course)
+    /** Whether all units of @p course are headers. */
+    bool is_header_course(const WallParameters &wall, const Course &course)
     {
       return wall.bond == WallBond::header
-             || (wall.bond == WallBond::english && is_shifted(wall, course))
-             || storey.header_courses.count(course + 1) > 0;
+             || (wall.bond == WallBond::english
+                 && is_shifted(wall, course.of_bond))
+             || course.storey.header_courses.count(course.number + 1) > 0;
+    }
+
+    std::string in_course(const WallStorey &storey, const unsigned int course)
+    {
+      return "in course " + std::to_string(course + 1)
+             + (storey.name.empty() ? "" : " of storey '" + storey.name + "'");
     }
 
     /** Head joints of every course as the bond alone has them. */
@@ -67,17 +82,15 @@ namespace quoin
       {
       }
 
-      /** Positions in (0, length), ascending, of a course of @p headers or of
-          the bond. @p below: those one below; @p gaps: what interrupts the
-          courses of the storey. */
+      /** Positions in (0, length), ascending, of @p course. @p below: those one
+          below; @p gaps: what interrupts the courses of the bond. */
       std::vector<double>
-      joints(const unsigned int course, const bool headers,
-             const std::vector<double> &below,
+      joints(const Course &course, const std::vector<double> &below,
              const std::vector<std::vector<Interruption>> &gaps)
       {
-        const bool shifted = is_shifted(wall, course);
+        const bool shifted = is_shifted(wall, course.of_bond);
         const double L     = wall.unit_length;
-        if (headers && wall.bond != WallBond::header)
+        if (is_header_course(wall, course) && wall.bond != WallBond::header)
           return periodic({ 0.5 * L, 0.75 * L }, { 0.5 * L });
         switch (wall.bond)
         {
@@ -156,7 +169,7 @@ namespace quoin
       }
 
       std::vector<double>
-      random(const std::vector<double> &below, const unsigned int course,
+      random(const std::vector<double> &below, const Course &course,
              const std::vector<std::vector<Interruption>> &gaps)
       {
         std::vector<double> result;
@@ -169,15 +182,15 @@ namespace quoin
           {
             next = x + wall.random_shortest
                    + uniform() * (wall.random_longest - wall.random_shortest);
-            if (is_bonded(next, course, below, gaps))
+            if (is_bonded(next, course.of_bond, below, gaps))
               break;
             next = x;
           }
           if (next == x)
             throw InputError("section 'Wall': 'Random overlap' leaves no place "
                              "for the joint that follows x = "
-                             + number_text(x) + " m in course "
-                             + std::to_string(course + 1)
+                             + number_text(x) + " m "
+                             + in_course(course.storey, course.number)
                              + ". Lower it, widen 'Random lengths', or take "
                                "another 'Random seed'.");
           result.push_back(next);
@@ -190,12 +203,6 @@ namespace quoin
       const double shift; /**< of unit_length */
       std::mt19937_64 generator;
     };
-
-    std::string in_course(const WallStorey &storey, const unsigned int course)
-    {
-      return "in course " + std::to_string(course + 1)
-             + (storey.name.empty() ? "" : " of storey '" + storey.name + "'");
-    }
 
     void check_interruptions(const std::vector<Interruption> &all,
                              const WallStorey &storey,
@@ -216,11 +223,12 @@ namespace quoin
 
     std::vector<Interruption> interruptions(const WallParameters &wall,
                                             const WallRun &run,
-                                            const WallStorey &storey,
-                                            const unsigned int course)
+                                            const Course &of)
     {
+      const WallStorey &storey  = of.storey;
+      const unsigned int course = of.number;
       std::vector<Interruption> result;
-      if (is_shifted(wall, course) == run.yields_shifted)
+      if (is_shifted(wall, of.of_bond) == run.yields_shifted)
         for (const auto &[left, right] : run.junctions)
           result.push_back({ { left, right }, Interruption::wall });
       for (const WallOpening &opening : storey.openings)
@@ -240,6 +248,24 @@ namespace quoin
                 [](const Interruption &a, const Interruption &b)
                 { return a.where.left < b.where.left; });
       check_interruptions(result, storey, course);
+      return result;
+    }
+
+    /** What interrupts the courses from storey @p first up to the next slab. */
+    std::vector<std::vector<Interruption>>
+    interruptions_of_bond(const WallParameters &wall, const WallRun &run,
+                          std::vector<WallStorey>::const_iterator first)
+    {
+      std::vector<std::vector<Interruption>> result;
+      bool goes_on = true;
+      for (; goes_on && first != wall.storeys.end(); ++first)
+      {
+        for (unsigned int number = 0; number < first->n_courses; ++number)
+          result.push_back(interruptions(
+              wall, run,
+              { *first, number, static_cast<unsigned int>(result.size()) }));
+        goes_on = first->slab == 0.;
+      }
       return result;
     }
 
@@ -297,15 +323,15 @@ namespace quoin
       place(stretch.right);
     }
 
-    void lay_course(const WallParameters &wall, const WallStorey &storey,
-                    const unsigned int course,
+    void lay_course(const WallParameters &wall, const Course &course,
                     const std::vector<Interruption> &gaps,
                     const std::vector<double> &joints, WallLayout &layout)
     {
-      const unsigned int row  = layout.levels.size();
-      const std::string &name = storey.course_name(course + 1);
-      const bool headers      = is_header_course(wall, storey, course);
-      double left             = 0.;
+      const WallStorey &storey = course.storey;
+      const unsigned int row   = layout.levels.size();
+      const std::string &name  = storey.course_name(course.number + 1);
+      const bool headers       = is_header_course(wall, course);
+      double left              = 0.;
       for (const Interruption &gap : gaps)
       {
         lay_units(wall, { left, gap.where.left }, joints, headers, name, row,
@@ -354,20 +380,30 @@ namespace quoin
     Bond bond(wall, run.shift);
     y = 0.;
     for (const WallStorey &storey : wall.storeys)
-    {
       check_lintels(wall, storey);
-      const double bottom = y;
-      std::vector<std::vector<Interruption>> gaps;
-      for (unsigned int course = 0; course < storey.n_courses; ++course)
-        gaps.push_back(interruptions(wall, run, storey, course));
-      std::vector<double> joints;
-      for (unsigned int course = 0; course < storey.n_courses; ++course)
+    std::vector<std::vector<Interruption>> gaps; // of the courses of the bond
+    std::vector<double> joints;                  // of the course below
+    unsigned int of_bond = 0;
+    for (auto storey_of = wall.storeys.begin(); storey_of != wall.storeys.end();
+         ++storey_of)
+    {
+      const WallStorey &storey = *storey_of;
+      const double bottom      = y;
+      if (of_bond == 0)
+        gaps = interruptions_of_bond(wall, run, storey_of);
+      for (unsigned int number = 0; number < storey.n_courses; ++number)
       {
-        joints = bond.joints(course, is_header_course(wall, storey, course),
-                             joints, gaps);
-        lay_course(wall, storey, course, gaps[course], joints, layout);
+        const Course course{ storey, number, of_bond };
+        joints = bond.joints(course, joints, gaps);
+        lay_course(wall, course, gaps[of_bond], joints, layout);
         layout.levels.push_back(y);
-        y = bottom + (course + 1) * wall.unit_height;
+        y = bottom + (number + 1) * wall.unit_height;
+        ++of_bond;
+      }
+      if (storey.slab > 0.)
+      {
+        of_bond = 0;
+        joints.clear();
       }
       for (const WallOpening &opening : storey.openings)
         layout.n_lintels += wall.lintel_bearing > 0.

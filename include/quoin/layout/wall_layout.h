@@ -69,8 +69,8 @@ namespace quoin
 
   /**
    * Lays the units of a wall. In every course the bond gives head joints; it
-   * begins anew with each storey, which a slab may end. Openings and lintels
-   * interrupt it, and joints that would leave a piece shorter than
+   * begins anew on each slab, and goes on through storeys without one. Openings
+   * and lintels interrupt it, and joints that would leave a piece shorter than
    * WallParameters::shortest at an end are left out.
    *
    * Throws InputError: a random bond that finds no place for a joint, a lintel

@@ -357,6 +357,58 @@ TEST(WallGeometry, NamesStoreysSlabsLintelsAndCourses)
   }
 }
 
+TEST(WallLayout, TheBondGoesOnThroughStoreysWithoutASlab)
+{
+  for (const WallBond bond : { WallBond::running, WallBond::english,
+                               WallBond::flemish, WallBond::header })
+  {
+    WallParameters wall       = small_wall(bond);
+    wall.storeys[0].n_courses = 5;
+    const WallLayout one      = lay_wall(wall);
+    wall.storeys              = std::vector<WallStorey>(2);
+    wall.storeys[0]           = { "low", 3, {}, 0., {} };
+    wall.storeys[1]           = { "high", 2, {}, 0., {} };
+    const WallLayout two      = lay_wall(wall);
+    ASSERT_EQ(two.levels.size(), one.levels.size());
+    for (unsigned int row = 0; row < 5; ++row)
+      EXPECT_EQ(joints(two, row), joints(one, row)) << "row " << row;
+    wall.storeys[0].slab = 0.2;
+    EXPECT_EQ(joints(lay_wall(wall), 4), joints(one, 0)) << "on the slab";
+  }
+}
+
+TEST(WallLayout, ARandomBondGoesOnThroughStoreysWithoutASlab)
+{
+  WallParameters wall  = small_wall(WallBond::random);
+  wall.length          = 10.;
+  wall.structured      = false;
+  wall.random_shortest = 0.2;
+  wall.random_longest  = 0.5;
+  wall.random_overlap  = 0.08;
+  wall.storeys         = std::vector<WallStorey>(2);
+  wall.storeys[0]      = { "low", 3, { { 4., 5., 2, 3 } }, 0., {} };
+  wall.storeys[1]      = { "high", 3, {}, 0., {} };
+  unsigned int n_laid  = 0;
+  for (wall.random_seed = 1; wall.random_seed <= 20; ++wall.random_seed)
+    try
+    {
+      const WallLayout layout = lay_wall(wall);
+      std::vector<double> below
+          = joints(layout, 2); // with the left jamb of the opening
+      below.push_back(5.);
+      for (const double x : joints(layout, 3))
+        for (const double other : below)
+          EXPECT_GE(std::abs(x - other), 0.08 - 1e-12)
+              << "seed " << wall.random_seed;
+      ++n_laid;
+    }
+    catch (const InputError &)
+    {
+      // There was no place for a joint.
+    }
+  EXPECT_GT(n_laid, 10U);
+}
+
 TEST(WallLayout, RefusesLintelsThatReachIntoTheSlab)
 {
   WallParameters wall = small_wall(WallBond::running);
