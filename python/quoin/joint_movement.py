@@ -5,6 +5,7 @@ contacts bear to which they were handed over, and what came after a time."""
 
 import numpy as np
 
+from quoin.geometry import cross
 from quoin.joint_comparison import inelastic_slip, matched
 from quoin.joint_states import INTACT
 from quoin.vtu import Grid, from_the_start
@@ -62,7 +63,8 @@ def all_joints(joints, contacts, farthest):
         state = contacts.cell_data["state"][contact]
         shown.cell_data["state"][faces] = state
         shown.point_data["point state"][shown.cells[faces]] = state[:, None]
-        own = {"displacement", "opening", "slip", "point state"}
+        own = {"displacement", "earlier displacement", "opening", "slip",
+               "point state"}
         for name in (set(shown.point_data) & set(contacts.point_data)) - own:
             mean = contacts.point_data[name][contacts.cells].mean(axis=1)
             shown.point_data[name][shown.cells[faces]] = mean[contact, None]
@@ -92,6 +94,32 @@ def blocks_since(blocks, then):
     return Grid(blocks.time, blocks.points + before[:, :2], blocks.cells,
                 {**blocks.point_data, "displacement": u - before},
                 blocks.cell_data)
+
+
+def displacement_at(blocks, places):
+    """Displacement of blocks at places in the mesh, (n, 2) [m], as their
+    cells have it."""
+    a, b, c = (blocks.points[blocks.cells[:, k], :2] for k in range(3))
+    area = cross(b - a, c - a)
+    found = np.empty((len(places), blocks.point_data["displacement"].shape[1]))
+    for k, place in enumerate(places):
+        weights = np.stack([cross(b - place, c - place),
+                            cross(c - place, a - place),
+                            cross(a - place, b - place)]) / area
+        cell = weights.min(axis=0).argmax()
+        found[k] = weights[:, cell] @ blocks.point_data["displacement"][
+            blocks.cells[cell]]
+    return found
+
+
+def bars_since(bars, then):
+    """Bolts whose displacements are those since the moment of the blocks @p
+    then, installed by then or not: they are those of the rock."""
+    bars, then = from_the_start(bars), from_the_start(then)
+    u = bars.point_data["displacement"]
+    before = displacement_at(then, bars.points[:, :2] - u[:, :2])
+    return Grid(bars.time, bars.points, bars.cells,
+                {**bars.point_data, "displacement": u - before}, bars.cell_data)
 
 
 def moved_since(joints, then, shear_stiffness):

@@ -97,14 +97,15 @@ def merge(grids):
 
 
 def from_the_start(grid):
-    """The blocks or joints with displacements and slips from the start of the
-    run on, where a stage has reset them; blocks where the mesh has them."""
+    """The blocks, joints or bars with displacements and slips from the start of
+    the run on, where a stage has reset them; blocks where the mesh has them."""
     data = dict(grid.point_data)
     points = grid.points
     earlier = data.pop("earlier displacement", None)
     if earlier is not None:
         data["displacement"] = data["displacement"] + earlier
-        if "opening" not in data:  # joints lie where they are now
+        # joints and bars lie where they are now
+        if "opening" not in data and "bond slip" not in data:
             points = points - earlier[:, :points.shape[1]]
     slip = data.pop("earlier slip", None)
     if slip is not None:

@@ -227,12 +227,15 @@ namespace quoin
     JointFields fields;
     for (const std::string &name : law_field_names(joints))
       fields.of_laws.push_back({ name, {} });
-    const ContactState &all = state.get<ContactState>();
-    const auto &pairs       = all.pairs;
+    const ContactState &all   = state.get<ContactState>();
+    const auto &pairs         = all.pairs;
+    const ContactEdges &edges = contacts.contact_edges();
+    const auto *origin        = state.find<ResultOrigin<2>>();
+    const bool is_moved       = origin && !origin->displacement.empty();
     for (unsigned int i = 0; i < pairs.size(); ++i)
     {
       Contact contact;
-      if (!contacts.contact_edges().is_own(pairs[i].lower)
+      if (!edges.is_own(pairs[i].lower)
           || !contacts.near_pairs().contact(all, i, contact))
         continue;
       fields.joint_set.push_back(contact.set);
@@ -242,6 +245,22 @@ namespace quoin
         fields.position.emplace_back(contact.reference[k]);
         fields.displacement.push_back(
             0.5 * (contact.lower[k] + contact.upper[k]) - contact.reference[k]);
+        if (is_moved)
+        {
+          // That of the lower edge, along which it is linear.
+          const unsigned int own    = edges.own_place(pairs[i].lower);
+          const auto &[first, last] = edges.local_nodes()[own];
+          const auto &[begin, end]  = edges.own()[own].points;
+          const double share
+              = (contact.reference[k] - dealii::Tensor<1, 2>(begin))
+                * (end - begin) / begin.distance_square(end);
+          const dealii::Tensor<1, 2> earlier
+              = (1. - share) * origin->displacement[first]
+                + share * origin->displacement[last];
+          fields.earlier_displacement.push_back(earlier);
+          fields.position.back() += earlier;
+          fields.displacement.back() -= earlier;
+        }
         fields.opening.push_back(contact.opening[k]);
         fields.slip.push_back(contact.slip[k]);
         fields.normal_traction.push_back(pairs[i].points[k].normal_traction);

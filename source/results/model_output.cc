@@ -3,6 +3,7 @@
 
 #include <quoin/results/field_output.h>
 #include <quoin/results/model_output.h>
+#include <quoin/results/result_origin.h>
 
 namespace quoin
 {
@@ -45,7 +46,8 @@ namespace quoin
       if (const BlockContacts *all = model.contacts())
         contacts.write(time, contact_fields(model.joints(), *all, now));
       if (!model.reinforcement().empty())
-        cables.write(time, cable_fields(model.reinforcement(), now));
+        cables.write(time, cable_fields(model.reinforcement(), now),
+                     earlier_displacement(model.reinforcement(), now));
       if (const Beams *all = solver.loads().beams.get())
         beams.write(time, *all, now);
     }

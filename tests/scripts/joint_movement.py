@@ -154,14 +154,28 @@ class Since(unittest.TestCase):
         np.testing.assert_allclose(place(found), place(now))
 
 
+def bar_in(blocks):
+    """A bolt from the lower block to the upper one, where these are."""
+    X = np.array([[1.5, 0.25], [1.5, 0.75], [0.5, 1.25], [0.75, 1.5]])
+    u = np.zeros((4, 3))
+    for k, corners in enumerate(([1, 2, 3], [1, 2, 3], [5, 6, 9], [6, 8, 9])):
+        # affine in each cell, and in each block
+        A = np.column_stack([blocks.points[corners], np.ones(3)])
+        u[k] = np.append(X[k], 1.) @ np.linalg.solve(
+            A, blocks.point_data["displacement"][corners])
+    return Grid(blocks.time, X + u[:, :2], np.arange(4).reshape(-1, 2),
+                {"displacement": u, "bond slip": np.zeros(4)}, {})
+
+
 def reset(grid, earlier, earlier_slip=None):
     """The grid as a run writes it if displacements, and slips, were reset
     where they were @p earlier."""
     data = {**grid.point_data, "earlier displacement": earlier,
             "displacement": grid.point_data["displacement"] - earlier}
     points = grid.points
-    if earlier_slip is None:  # joints lie where they are now
-        points = points + earlier[:, :2]
+    if earlier_slip is None:
+        # joints and bars lie where they are now
+        points = points + earlier[:, :2] * ("bond slip" not in data)
     else:
         data["earlier slip"] = earlier_slip
         data["slip"] = data["slip"] - earlier_slip
@@ -189,6 +203,20 @@ class AfterAReset(unittest.TestCase):
             self.now.points + self.now.point_data["displacement"][:, :2])
         self.same(joint_movement.blocks_since(self.now, self.then),
                   joint_movement.blocks_since(seen, self.then))
+
+    def test_bars(self):
+        before, whole = bar_in(self.then), bar_in(self.now)
+        seen = reset(whole, before.point_data["displacement"])
+        found = joint_movement.bars_since(seen, self.then)
+        np.testing.assert_allclose(
+            found.point_data["displacement"],
+            whole.point_data["displacement"]
+            - before.point_data["displacement"], atol=1e-14)
+        self.same(joint_movement.bars_since(whole, self.then), found)
+        # enlarged they stay in their blocks
+        np.testing.assert_allclose(
+            joint_figure.drawn_position(found, 20.), before.points
+            + 20. * (whole.points - before.points), atol=1e-12)
 
     def whole(self, slip, opening, time):
         """Joints that have moved, in a run without reset."""

@@ -21,7 +21,8 @@ from quoin.figures.joint_figure import (CrackJoints, DamageJoints, SlipJoints,
                                         contact_forces, draw_contacts,
                                         drawn_position)
 from quoin.figures.stress_figure import Contours, Crosses
-from quoin.joint_movement import all_joints, blocks_since, since
+from quoin.joint_movement import (all_joints, bars_since, blocks_since,
+                                  since)
 from quoin.moments import check_times
 from quoin.shared_motion import enlarged, shared_motion
 from quoin.stages import begin, since_text, time_of
@@ -84,6 +85,8 @@ class Frame:
         if self.joints is not None:
             self.joints = since(self.joints, then.joints, run_parameters
                                 .of_joint_sets(output, "Shear stiffness"))
+        if self.cables is not None:
+            self.cables = bars_since(self.cables, then.blocks)
         if self.contacts is not None:
             # of contacts no one knows where they were then
             del self.contacts.point_data["displacement"]

@@ -5,6 +5,7 @@
 
 #include <quoin/joint_elements/joint_changes.h>
 #include <quoin/operators/archive.h>
+#include <quoin/results/cable_output.h>
 #include <quoin/results/field_output.h>
 #include <quoin/results/point_values.h>
 #include <quoin/results/result_origin.h>
@@ -87,6 +88,108 @@ TEST(ResultOrigin, FieldsCountFromItAndStandWhereTheBlocksAre)
     EXPECT_DOUBLE_EQ(joints.displacement[p][0], 0.0625);
     EXPECT_DOUBLE_EQ(joints.earlier_displacement[p][0], 0.125);
   }
+}
+
+namespace
+{
+  /** A displacement that is linear in the mesh [m]. */
+  dealii::Tensor<1, 2> linear_displacement(const dealii::Tensor<1, 2> &X)
+  {
+    return dealii::Point<2>(0.01 + 0.02 * X[0] - 0.03 * X[1],
+                            -0.04 + 0.05 * X[0] + 0.06 * X[1]);
+  }
+
+  /** As if a stage had reset displacements where they were linear. */
+  void set_linear_origin(const NodeMap<2> &nodes, State<2> &state)
+  {
+    auto &origin = state.add<ResultOrigin<2>>().displacement;
+    origin.resize(state.nodes.size());
+    for (unsigned int i = 0; i < state.nodes.size(); ++i)
+      origin[i] = linear_displacement(nodes.point(i));
+  }
+
+  void expect_near(const dealii::Tensor<1, 2> &a, const dealii::Tensor<1, 2> &b)
+  {
+    EXPECT_NEAR((a - b).norm(), 0., 1e-12);
+  }
+} // namespace
+
+TEST(ResultOrigin, ContactsCountFromItAsTheBlocksDo)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  ModelParameters parameters             = two_blocks();
+  JointSetParameters &joint              = parameters.joints[0];
+  joint.all_new_contacts                 = true;
+  coulomb_law(joint).peak                = { 0., 0.3, 0. };
+  coulomb_law(joint).residual            = { 0., 0.3, 0. };
+  parameters.large_displacements         = true;
+  parameters.contact.large_displacements = true;
+  const auto still = component(LoadQuantity::velocity, "0");
+  TestRun run(
+      mesh, parameters,
+      { platen("held", "lower", still, still, still),
+        platen("driven", "upper", component(LoadQuantity::velocity, "0.05"),
+               still, still) });
+  for (unsigned int i = 0; i < run.state.nodes.size(); ++i)
+    if (run.nodes->block_of_node(i) == 1)
+      run.state.nodes[i].u[1] = -1e-5;
+  run.begin(stage_with({ "held", "driven" }));
+  while (run.state.get<JointHistory>().handed_over[0] == 0
+         && run.state.nodes[run.node(3., 4.)].u[0] < 0.02)
+    run.step(1);
+  run.step(1);
+  ASSERT_NE(run.state.get<JointHistory>().handed_over[0], 0);
+  const auto fields = [&]()
+  {
+    return contact_fields(run.model.joints(), *run.model.contacts(), run.state);
+  };
+  const JointFields whole = fields();
+  ASSERT_FALSE(whole.position.empty());
+  EXPECT_TRUE(whole.earlier_displacement.empty());
+  set_linear_origin(*run.nodes, run.state);
+  const JointFields since = fields();
+  ASSERT_EQ(since.position.size(), whole.position.size());
+  ASSERT_EQ(since.earlier_displacement.size(), whole.position.size());
+  for (std::size_t p = 0; p < since.position.size(); ++p)
+  {
+    const dealii::Tensor<1, 2> earlier = linear_displacement(whole.position[p]);
+    expect_near(since.earlier_displacement[p], earlier);
+    expect_near(since.displacement[p], whole.displacement[p] - earlier);
+    expect_near(since.position[p], whole.position[p] + earlier);
+  }
+}
+
+TEST(ResultOrigin, BarsCountFromItAsTheBlocksDo)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  const dealii::Point<2> head(0.3, 3.7), far(1.6, 0.2);
+  CableParameters cable;
+  cable.element_length       = 0.25;
+  cable.name                 = "bar";
+  cable.bars                 = { { { head, far } } };
+  cable.law.stiffness        = 1e8;
+  cable.law.bond_stiffness   = 1e9;
+  cable.law.active_length    = 0.1;
+  ModelParameters parameters = two_blocks();
+  parameters.cables          = { cable };
+  const BlockTriangulation<2> blocks(
+      mesh, std::vector<unsigned int>(mesh.n_cells(), 0),
+      std::vector<bool>(mesh.n_blocks(), false), MPI_COMM_SELF);
+  const NodeMap<2> nodes(blocks,
+                         std::vector<NodeMap<2>::Segment>{ { { head, far } } });
+  const Model<2> model(nodes, parameters);
+  State<2> state = model.initial_state();
+  model.reinforcement().begin_stage("first", true, 0., state);
+  EXPECT_TRUE(earlier_displacement(model.reinforcement(), state).empty());
+  set_linear_origin(nodes, state);
+  const auto earlier = earlier_displacement(model.reinforcement(), state);
+  const auto places  = cable_fields(model.reinforcement(), state).position;
+  ASSERT_FALSE(places.empty());
+  ASSERT_EQ(earlier.size(), places.size());
+  for (std::size_t p = 0; p < places.size(); ++p)
+    expect_near(earlier[p], linear_displacement(places[p]));
 }
 
 TEST(JointFields, TheInelasticSlipHasNothingOfInitialStresses)
