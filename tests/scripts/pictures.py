@@ -357,6 +357,13 @@ class ParaView(unittest.TestCase):
                  for call in views.pv.Glyph.call_args_list],
                 [f"stress {k + 1}" for k in range(dim)])
 
+    def test_a_mechanism_has_a_factor_and_no_time(self):
+        views = self.views(2)
+        for output, text in (("run", "t = 1.50 s"), ("run/mechanism/",
+                                                     "factor 1.5")):
+            views.output, views.time_form = output, "2f"
+            self.assertEqual(views.moment(1.5), text)
+
     def test_dimension(self):
         with tempfile.TemporaryDirectory() as folder:
             views = self.views(None)

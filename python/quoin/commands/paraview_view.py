@@ -479,6 +479,13 @@ class Views:
     def nearest(self, time):
         return min(self.times, key=lambda t: abs(t - time))
 
+    def moment(self, time):
+        """Text of a recorded time; the mechanism of a search for the factor of
+        safety is listed by its factor."""
+        if os.path.basename(os.path.abspath(self.output)) == "mechanism":
+            return f"factor {time:.4g}"
+        return f"t = {time:.{self.time_form}} s"
+
     def at(self, time):
         """The recorded time nearest to @p time [s], shown."""
         nearest = self.nearest(time)
@@ -487,8 +494,7 @@ class Views:
         self.pv.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
         self.window.ViewTime = nearest
         self.title.Text = (
-            f"{TITLES.get(self.what, self.what)}, t = "
-            f"{nearest:.{self.time_form}} s"
+            f"{TITLES.get(self.what, self.what)}, {self.moment(nearest)}"
             + (f", displacements × {self.scale:g}"
                if self.scale not in (0.0, 1.0) else "")
             + (" without the motion of the whole" if motion else ""))
@@ -582,7 +588,7 @@ def main():
         window.ViewSize = size
         views.look()
         time = views.at(views.time)
-        print(f"time {time:g} s, displacements {views.scale:g} times"
+        print(f"{views.moment(time)}, displacements {views.scale:g} times"
               + (" without the motion of the whole" if views.is_shared
                  else ""))
         if options.state:
