@@ -230,9 +230,14 @@ namespace quoin
     for (const Dashpot<dim> &dashpot : base_dashpots)
       damping.push_back(dashpot.damping);
     for (const Side &side : side_list)
+    {
+      this->own_traits.largest_eigenvalue
+          = std::max(this->own_traits.largest_eigenvalue,
+                     side.ground.largest_eigenvalue());
       for (unsigned int i = 0; i < side.nodes.size(); ++i)
         for (unsigned int k = 0; k < side.dashpots[i].damping.size(); ++k)
           damping[side.nodes[i]][k] += side.dashpots[i].damping[k];
+    }
   }
 
   // -- what is constant ------------------------------------------------------
@@ -312,15 +317,6 @@ namespace quoin
     add_dashpots(node_map, faces, impedance, ground.thickness, local,
                  side.dashpots);
     side_list.push_back(std::move(side));
-  }
-
-  template <int dim>
-  double FreeFieldBoundary<dim>::largest_eigenvalue() const
-  {
-    double largest = 0.;
-    for (const Side &side : side_list)
-      largest = std::max(largest, side.ground.largest_eigenvalue());
-    return largest;
   }
 
   // -- a step ----------------------------------------------------------------

@@ -298,9 +298,8 @@ namespace quoin
       nodes.push_back(end.node);
     const dealii::IndexSet wanted
         = index_set(node_map.exchange().n_global(), nodes);
-    const auto owners
-        = mpi::compute_index_owner(node_map.dof_handler().locally_owned_dofs(),
-                                   wanted, node_map.communicator());
+    const auto owners = mpi::compute_index_owner(
+        node_map.exchange().owned(), wanted, node_map.communicator());
     using Messages = std::map<unsigned int, std::vector<LooseEnd>>;
     Messages to_owners;
     for (const LooseEnd &end : loose)

@@ -194,7 +194,8 @@ namespace quoin
     double eigenvalue
         = std::max(masses.beam_eigenvalue, largest_eigenvalue(stability));
     for (const MotionConstraint<dim> *constraint : acting.constraints)
-      eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
+      eigenvalue
+          = std::max(eigenvalue, constraint->traits().largest_eigenvalue);
     if constexpr (dim == 2)
       if (all.water && all.water->acts())
         eigenvalue += largest_water_eigenvalue();
@@ -271,11 +272,11 @@ namespace quoin
       mark_blocks(nodes, *constraint, is_held);
     model.set_held_blocks(is_held);
     const DashpotBlocks blocks = dashpot_blocks(model);
-    model.operators().joints->set_blocks(blocks);
+    model.operators().joints->dashpots.set_blocks(blocks);
     if (block_contacts)
       block_contacts->set_blocks(blocks);
     stepper.use_dashpots(
-        model.joints().has_dashpots()
+        model.joints().dashpots.act()
         || (block_contacts && block_contacts->dashpots().act()));
   }
 

@@ -292,8 +292,9 @@ namespace quoin
   void Solver<dim>::find_energies(const State<dim> &state,
                                   EnergyAccounts stored)
   {
-    for (const auto &constraint : all.constraints)
-      constraint->add_stored_energy(state, stored);
+    if constexpr (dim == 2)
+      if (all.far.elastostatic)
+        all.far.elastostatic->add_stored_energy(state, stored);
     stored += state.energy;
     sum_accounts(stored);
     last_energies.at_start = 0.;

@@ -449,7 +449,7 @@ namespace quoin
     // Trials without drag cost as much as steps: at first, then at intervals.
     if (state.load_time < now.jump_time
         || balance.dragged > jump_ends * balance.applied
-        || (!own_steps.is_short(now) && now.n_drag % trial_interval != 0))
+        || (now.n_drag > short_jump && now.n_drag % trial_interval != 0))
       return;
     // Near an equilibrium: test whether it is one without drag.
     equilibrium->set_drag(0.);

@@ -36,8 +36,6 @@ namespace quoin
     constexpr double rate_growth = 4.;
     /** Load step after a jump, by the last one. */
     constexpr double jump_share = 0.3;
-    /** Number of steps of a short jump. */
-    constexpr unsigned int short_way = 3;
     /** Steps ahead on the path before return to load control. */
     constexpr unsigned int steps_ahead = 5;
   } // namespace
@@ -152,11 +150,6 @@ namespace quoin
     return false;
   }
 
-  bool ImplicitSteps::is_short(const ImplicitState &jump) const
-  {
-    return jump.n_drag <= short_way;
-  }
-
   void ImplicitSteps::end_jump(const ImplicitState &before,
                                ImplicitState &now) const
   {
@@ -177,7 +170,8 @@ namespace quoin
     // on.
     const double next
         = now.last_step
-          * (is_short(now) || before.after_jump ? most_growth : jump_share);
+          * (now.n_drag <= short_jump || before.after_jump ? most_growth
+                                                           : jump_share);
     now.last_step = std::clamp(next, 0.01 * parameters.first_step,
                                parameters.largest_step);
     now.step      = now.last_step;

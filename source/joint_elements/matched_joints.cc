@@ -91,7 +91,7 @@ namespace quoin
     if (forces.viscous && step.stiffness_damping > 0.)
       add_viscous_forces(state.nodes.data(), history, state.velocity.data(),
                          step.stiffness_damping, forces.viscous);
-    if (forces.viscous && has_dashpots())
+    if (forces.viscous && dashpots.act())
       dashpots.add_forces(all_segments, all_laws, state.nodes.data(), history,
                           history.handed_over.data(), state.velocity.data(),
                           forces.viscous);
@@ -102,7 +102,7 @@ namespace quoin
                                          dealii::Tensor<1, 2> *force) const
   {
     const JointHistory &history = state.get<JointHistory>();
-    if (has_dashpots())
+    if (dashpots.act())
       dashpots.add_face_forces(i, all_segments, all_laws, state.nodes.data(),
                                history, history.handed_over.data(),
                                state.velocity.data(), force);

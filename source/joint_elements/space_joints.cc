@@ -105,7 +105,7 @@ namespace quoin
     if (forces.viscous && step.stiffness_damping > 0.)
       add_viscous_forces(state.nodes.data(), history, state.velocity.data(),
                          step.stiffness_damping, forces.viscous);
-    if (forces.viscous && has_dashpots())
+    if (forces.viscous && dashpots.act())
       dashpots.add_forces(all_faces, all_laws, state.nodes.data(), history,
                           history.detached.data(), state.velocity.data(),
                           forces.viscous);

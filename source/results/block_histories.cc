@@ -155,7 +155,7 @@ namespace quoin
     before.nodes    = state.nodes;
     before.velocity = state.velocity;
     // Velocities of ghosts are those of the step before.
-    if (model.joints().has_dashpots())
+    if (model.joints().dashpots.act())
       model.nodes().exchange().update_ghosts(before.velocity.data());
   }
 

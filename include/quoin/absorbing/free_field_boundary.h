@@ -109,7 +109,6 @@ namespace quoin
     void account(const StepContext &step,
                  const std::vector<CapturedNode<dim>> &captured,
                  State<dim> &state) override;
-    double largest_eigenvalue() const override;
 
     const std::vector<Side> &sides() const
     {

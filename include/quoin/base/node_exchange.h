@@ -37,6 +37,11 @@ namespace quoin
     /** Exchange of the same nodes with @p partners alone. Collective. */
     NodeExchange with_partners(const std::vector<unsigned int> &partners) const;
 
+    /** Global numbers of the owned nodes. */
+    const dealii::IndexSet &owned() const
+    {
+      return partitioner.locally_owned_range();
+    }
     unsigned int n_owned() const
     {
       return partitioner.locally_owned_size();

@@ -107,8 +107,9 @@ namespace quoin
     NodalStiffness nodal_stiffness(const NodeExchange &exchange) const;
 
     void prepare(State<2> &state) const override;
+    /** As ForceOperator::add_stored_energy(). */
     void add_stored_energy(const State<2> &state,
-                           EnergyAccounts &energies) const override
+                           EnergyAccounts &energies) const
     {
       // This is the same on all ranks.
       const auto *own = state.find<StaticFarFieldState>();

@@ -26,7 +26,7 @@ namespace quoin
   /**
    * The degrees of freedom of a stage in equilibrium and their constraints.
    *
-   * Component d of the displacement of node g of NodeMap::dof_handler() has
+   * Component d of the displacement of global node g of NodeExchange has
    * the number dim g + d. Those of each body, a platen or a rigid block, come
    * after those of the nodes. Four in two dimensions: displacement x and y of
    * its centre, rotation, and one that is always zero, so that all come in

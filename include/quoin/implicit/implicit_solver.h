@@ -93,10 +93,6 @@ namespace quoin
     {
       newton->try_iteration(state);
     }
-    /** Does nothing: in equilibrium internal variables are up to date. */
-    void update_histories(State<dim> &) override
-    {
-    }
 
     /** Finds the equilibrium of liners without what is cut, too, while blocks
         rest: the forces that this leaves on them are then released. */

@@ -20,6 +20,10 @@ namespace quoin
     double path; /**< increment of Balance::path [m]; 0: load control */
   };
 
+  /** Number of steps of a short jump: the next equilibrium is the next one on
+      the same path. */
+  constexpr unsigned int short_jump = 3;
+
   /** Chooses the steps of an ImplicitSolver from its state: of the load time,
       of the path or of the pseudo-time of a jump. */
   class ImplicitSteps
@@ -87,8 +91,6 @@ namespace quoin
                      State<dim> &state) const;
     /** Chooses the step after a jump from the equilibrium @p before. */
     void end_jump(const ImplicitState &before, ImplicitState &now) const;
-    /** Whether the next equilibrium is the next one on the same path. */
-    bool is_short(const ImplicitState &jump) const;
     /** Largest path increment in the next step of a jump [m]. */
     double most_jump_path(const ImplicitState &now) const;
 

@@ -110,21 +110,13 @@ namespace quoin
      */
     void set_laws(const std::vector<JointSetParameters> &sets);
 
-    /** Sets what dashpots need, without which there are none. Collective. */
-    void set_blocks(const DashpotBlocks &blocks)
-    {
-      dashpots.set_blocks(blocks);
-    }
+    /** Beside the springs; none before set_blocks(). */
+    JointDashpots dashpots;
     /** Adds the forces [N] of the dashpots of face @p i as they were when
        forces were last added, with the nodes, velocities and histories of @p
        state. */
     void add_dashpot_forces(unsigned int i, const State<2> &state,
                             dealii::Tensor<1, 2> *force) const;
-    /** Whether a set has dashpots that act. */
-    bool has_dashpots() const
-    {
-      return dashpots.act();
-    }
 
     /**
      * Updates the internal variables for the positions in @p nodes, adds the
@@ -150,7 +142,6 @@ namespace quoin
   private:
     const NodeMap<2> *node_map = nullptr;
     std::vector<JointSegment> all_segments; /**< sorted by set */
-    JointDashpots dashpots;
     std::vector<JointLaw> all_laws;
     FaceGroups<2> groups;
   };

@@ -125,16 +125,8 @@ namespace quoin
       return all_laws;
     }
 
-    /** Sets what dashpots need, without which there are none. Collective. */
-    void set_blocks(const DashpotBlocks &blocks)
-    {
-      dashpots.set_blocks(blocks);
-    }
-    /** Whether a set has dashpots that act. */
-    bool has_dashpots() const
-    {
-      return dashpots.act();
-    }
+    /** Beside the springs; none before set_blocks(). */
+    JointDashpots dashpots;
 
     /**
      * Updates the internal variables for the positions in @p nodes, adds the
@@ -153,7 +145,6 @@ namespace quoin
   private:
     const NodeMap<3> *node_map = nullptr;
     std::vector<SpaceJointFace> all_faces; /**< sorted by set */
-    JointDashpots dashpots;
     std::vector<JointLaw> all_laws;
     FaceGroups<3> groups;
   };

@@ -27,8 +27,7 @@ namespace quoin
    * the ghosts of NodeExchange. Of each block, cells that have nodes which
    * other ranks share come before the others, so that their forces can be on
    * their way while those of the others are computed. Nodes have a global
-   * number, too, which is the index of their degree of freedom in
-   * dof_handler().
+   * number, too, that of NodeExchange.
    *
    * With degree 2 each cell of the triangulation is four consecutive linear
    * ones here: those at its three vertices and the one in its middle, whose
@@ -54,10 +53,6 @@ namespace quoin
     const BlockTable<dim> &table() const
     {
       return mesh.table();
-    }
-    const dealii::DoFHandler<dim> &dof_handler() const
-    {
-      return dofs;
     }
     const NodeExchange &exchange() const
     {

@@ -81,6 +81,8 @@ namespace quoin
     const char *phase = "loads";
     /** The load without which it cannot act in a stage; empty: none. */
     std::string companion;
+    /** Largest omega^2 of its own degrees of freedom [1/s^2]. */
+    double largest_eigenvalue = 0.;
 
     bool is_rigid_body() const
     {
@@ -157,19 +159,6 @@ namespace quoin
       captured_positions = std::move(positions);
     }
 
-    /** The functions of time by which it drives or loads its nodes; null: none.
-     */
-    virtual const std::array<LoadComponent, 3> *parts() const
-    {
-      return nullptr;
-    }
-
-    /** Largest omega^2 of its own degrees of freedom [1/s^2]. */
-    virtual double largest_eigenvalue() const
-    {
-      return 0.;
-    }
-
     /**
      * Sets the masses of the local nodes in the coming stage, with mass scaling
      * [kg]. @p extra_inertia [kg m^2] is the moment of inertia of rigid blocks
@@ -180,6 +169,13 @@ namespace quoin
                           double /*extra_inertia*/ = 0.,
                           double /*extra_spin*/    = 0.)
     {
+    }
+
+    /** The functions of time by which it drives or loads its nodes; null: none.
+     */
+    virtual const std::array<LoadComponent, 3> *parts() const
+    {
+      return nullptr;
     }
 
     /** Called when a stage begins in which it does not act. */
@@ -212,12 +208,6 @@ namespace quoin
                          const std::vector<CapturedNode<dim>> &captured,
                          State<dim> &state)
         = 0;
-
-    /** As ForceOperator::add_stored_energy(). */
-    virtual void add_stored_energy(const State<dim> &,
-                                   EnergyAccounts & /*energies*/) const
-    {
-    }
 
     /**
      * Force [N] and moment [N m] about the origin or, for a platen, its centre

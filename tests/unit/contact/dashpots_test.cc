@@ -50,7 +50,7 @@ namespace
       contacts = std::make_unique<BlockContacts>(nodes, joints,
                                                  contact_model({ set }));
       contacts->prepare(state);
-      joints.set_blocks(blocks);
+      joints.dashpots.set_blocks(blocks);
       contacts->set_blocks(blocks);
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         state.nodes.push_back(

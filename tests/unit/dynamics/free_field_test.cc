@@ -252,7 +252,7 @@ TEST(FreeField, TheColumnIsLayered)
   EXPECT_EQ(side->sides().front().ground.heights(),
             (std::vector<double>{ 0., 1., 2., 3., 4. }));
   const double modulus = 1e10 * 0.8 / (1.2 * 0.6);
-  EXPECT_NEAR(side->largest_eigenvalue(), 4. * modulus / 2500., 1e-3);
+  EXPECT_NEAR(side->traits().largest_eigenvalue, 4. * modulus / 2500., 1e-3);
   EXPECT_EQ(side->traits().companion, "base");
 }
 

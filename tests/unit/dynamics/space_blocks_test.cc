@@ -564,7 +564,8 @@ namespace
     ground.is_rigid = ground.yields = { false };
     auto fields                     = std::make_unique<FreeFieldBoundary<3>>(
         sides, box.nodes, ground, FreeFieldBase{ below, { z } });
-    box.dt = std::min(box.dt, 1.6 / std::sqrt(fields->largest_eigenvalue()));
+    box.dt = std::min(box.dt,
+                      1.6 / std::sqrt(fields->traits().largest_eigenvalue));
     // What prescribes comes last.
     box.constraints.insert(prescribed ? box.constraints.begin()
                                       : box.constraints.end(),

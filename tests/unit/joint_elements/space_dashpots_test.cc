@@ -47,7 +47,7 @@ namespace
       data.inverse_mass = { lower_inverse, 1. / 300. };
       data.is_divided   = { false, false };
       data.impedance.assign(2, { { impedance, impedance } });
-      joints.set_blocks(data);
+      joints.dashpots.set_blocks(data);
       for (JointState &point : history().state)
         point = initial;
       for (const SpaceJointFace &face : joints.faces())
