@@ -8,13 +8,12 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import types
 import unittest
 
 import numpy as np
 
-from synthetic_runs import ROOT, SCRIPTS
+from synthetic_runs import ROOT, SCRIPTS, Scratch
 
 CASES = os.path.join(ROOT, "tests", "cases")
 sys.path.insert(0, CASES)
@@ -54,11 +53,9 @@ def table(header, *rows):
                                  for row in rows]) + "\n"
 
 
-class Broken(unittest.TestCase):
+class Broken(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = scratch.name
+        super().setUp()
         self.results = os.path.join(self.folder, "results")
         os.mkdir(self.results)
 

@@ -224,12 +224,12 @@ class Joints(unittest.TestCase):
 class Script(Folders):
     def setUp(self):
         super().setUp()
-        self.case = os.path.join(self.folder.name, "case.prm")
+        self.case = os.path.join(self.folder, "case.prm")
         with open(self.case, "w") as file:
             file.write("include common.inc\n")
-        with open(os.path.join(self.folder.name, "common.inc"), "w") as file:
+        with open(os.path.join(self.folder, "common.inc"), "w") as file:
             file.write("set Output directory = results  # here\n")
-        with open(os.path.join(self.folder.name, "plot.json"), "w") as file:
+        with open(os.path.join(self.folder, "plot.json"), "w") as file:
             json.dump(SPEC, file)
 
     def call(self, *words):
@@ -242,7 +242,7 @@ class Script(Folders):
 
     def test_output_directory(self):
         self.assertEqual(run_parameters.output_of(self.case),
-                         os.path.join(self.folder.name, "results"))
+                         os.path.join(self.folder, "results"))
         self.assertEqual(
             run_parameters.output_of(self.case, ["Output directory=/x"]), "/x")
 
@@ -250,7 +250,7 @@ class Script(Folders):
         status, printed, error = self.call(self.case, "--quoin", self.quoin(2),
                                            "--set", "Thickness=1")
         self.assertEqual((status, error), (0, ""))
-        output = os.path.join(self.folder.name, "results_compare")
+        output = os.path.join(self.folder, "results_compare")
         for name in ("compare.png", "cracks.png"):
             self.assertGreater(
                 os.path.getsize(os.path.join(output, name)), 5000)
@@ -262,7 +262,7 @@ class Script(Folders):
         self.assertIn("note: the implicit run ended early", printed)
 
     def test_folders_at_hand(self):
-        output = os.path.join(self.folder.name, "both")
+        output = os.path.join(self.folder, "both")
         words = ("--explicit", self.explicit, "--implicit", self.implicit,
                  "--output", output)
         self.assertEqual(self.call(self.case, *words, "--at", "2,3")[0], 0)

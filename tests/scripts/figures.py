@@ -4,7 +4,6 @@
 """The figures of scripts/: what they read off a run, on data whose answers are
 known, and whether every script draws a picture of a real run or says in a
 sentence why not."""
-import argparse
 import csv
 import importlib.util
 import os
@@ -523,8 +522,5 @@ class Pictures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quoin", required=True, help="the executable")
-    options, others = parser.parse_known_args()
-    quoin = os.path.abspath(options.quoin)
-    unittest.main(argv=sys.argv[:1] + others)
+    quoin = synthetic_runs.program_of_words(__doc__)
+    unittest.main()

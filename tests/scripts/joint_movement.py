@@ -10,7 +10,8 @@ import unittest
 
 import numpy as np
 
-from synthetic_runs import SLID, WIDE, NOTHING, joint_grid, write_run
+from synthetic_runs import (SLID, WIDE, NOTHING, Scratch, joint_grid,
+                            write_run)
 from quoin import damage_table, joint_movement, shared_motion, stages
 from quoin.commands import joint_damage
 from quoin.figures import block_figure, joint_figure
@@ -285,11 +286,10 @@ class Pictures(unittest.TestCase):
                     block_figure.frames_of(folder, [(2, None)], time)
 
 
-class Stages(unittest.TestCase):
+class Stages(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = os.path.join(scratch.name, "run")
+        super().setUp()
+        self.folder = os.path.join(self.folder, "run")
         write_run(self.folder, [0., 1.], [0., 1.],
                   {0: joint_grid(NOTHING, NOTHING),
                    1: joint_grid(NOTHING, SLID),

@@ -20,7 +20,7 @@ from unittest import mock
 
 import numpy as np
 
-from synthetic_runs import NOTHING, ROOT, WIDE, joint_grid, write_run
+from synthetic_runs import NOTHING, ROOT, WIDE, Scratch, joint_grid, write_run
 import quoin
 from quoin import frames, mesh_convergence, running, studies
 from quoin.commands import mesh_convergence as mesh_command
@@ -69,11 +69,10 @@ with open(os.path.join(folder, "summary.json"), "w") as file:
 """
 
 
-class Results(unittest.TestCase):
+class Results(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = os.path.join(scratch.name, "run")
+        super().setUp()
+        self.folder = os.path.join(self.folder, "run")
         write_run(self.folder, [0., 1e-3, 2e-3], [0., -5., -4.],
                   {0: joint_grid(NOTHING, NOTHING),
                    2: joint_grid(WIDE, NOTHING)}, ends={"settle": 0.})
@@ -141,11 +140,9 @@ class Results(unittest.TestCase):
                              [0., 0.])
 
 
-class Runs(unittest.TestCase):
+class Runs(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = scratch.name
+        super().setUp()
         self.calls = os.path.join(self.folder, "calls")
         self.case = os.path.join(self.folder, "case.prm")
         with open(self.case, "w") as file:

@@ -15,7 +15,7 @@ from unittest import mock
 
 import numpy as np
 
-from synthetic_runs import SCRIPTS, write_vtu
+from synthetic_runs import SCRIPTS, Scratch, write_vtu
 from quoin.commands import paraview_view
 from quoin.commands import plot
 from quoin.figures import block_figure
@@ -52,11 +52,9 @@ class Units(unittest.TestCase):
         self.assertEqual(csv_table.as_text(-0.5), "-0.500")
 
 
-class Axes(unittest.TestCase):
+class Axes(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = scratch.name
+        super().setUp()
         with open(os.path.join(self.folder, "histories.csv"), "w") as file:
             file.write("time [s],ux [m],uy [m],p [Pa],share [-]\n0,0,0,0,0\n"
                        "1,1e-3,2e-3,5e6,1\n")

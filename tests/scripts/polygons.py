@@ -3,17 +3,15 @@
 # Copyright (C) 2026 The quoin authors
 """Polygons and arches as geometries: areas and joints against closed forms, as
 the program meshes them, and what is refused."""
-import argparse
 import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-from synthetic_runs import SCRIPTS
+from synthetic_runs import SCRIPTS, Scratch, program_of_words
 from quoin import geometry, vtu
 from quoin.geometry import Polygon
 
@@ -136,11 +134,9 @@ class Partitions(unittest.TestCase):
                                           square("a", 5, 5)])
 
 
-class Geometries(unittest.TestCase):
+class Geometries(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = scratch.name
+        super().setUp()
         self.path = os.path.join(self.folder, "blocks.geo")
 
     def mesh(self, polygons, has_base=False, **words):
@@ -297,8 +293,5 @@ class Geometries(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quoin", required=True, help="the executable")
-    options, others = parser.parse_known_args()
-    quoin = os.path.abspath(options.quoin)
-    unittest.main(argv=sys.argv[:1] + others)
+    quoin = program_of_words(__doc__)
+    unittest.main()

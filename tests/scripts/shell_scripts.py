@@ -6,38 +6,35 @@ called with."""
 import os
 import shutil
 import subprocess
-import tempfile
 import unittest
 
-from synthetic_runs import ROOT
+from synthetic_runs import ROOT, Scratch
 
 SAYS = '#!/bin/sh\necho "$(basename "$0")" "$@"\n'
 
 
-class Shell(unittest.TestCase):
+class Shell(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.root = scratch.name
+        super().setUp()
         for folder in ("scripts", "python/quoin", "bin", "build", "cases"):
-            os.makedirs(os.path.join(self.root, folder))
+            os.makedirs(os.path.join(self.folder, folder))
 
     def take(self, *names):
         for name in names:
             shutil.copy(os.path.join(ROOT, name),
-                        os.path.join(self.root, name))
+                        os.path.join(self.folder, name))
 
     def write(self, path, text):
-        path = os.path.join(self.root, path)
+        path = os.path.join(self.folder, path)
         with open(path, "w") as file:
             file.write(text)
         os.chmod(path, 0o755)
 
     def call(self, name, *words, **variables):
-        path = os.path.join(self.root, "bin") + ":" + os.environ["PATH"]
+        path = os.path.join(self.folder, "bin") + ":" + os.environ["PATH"]
         return subprocess.run(
-            [os.path.join(self.root, "scripts", name), *words], check=True,
-            cwd=self.root, stdout=subprocess.PIPE, text=True, timeout=60,
+            [os.path.join(self.folder, "scripts", name), *words], check=True,
+            cwd=self.folder, stdout=subprocess.PIPE, text=True, timeout=60,
             env=dict(os.environ, PATH=path, **variables)).stdout
 
 
@@ -50,14 +47,14 @@ class Build(Shell):
         self.write("bin/nproc", "#!/bin/sh\necho 7\n")
         # whose screen output the script throws away
         self.write("bin/cmake", SAYS.replace("echo", "echo >%s/called"
-                                             % self.root))
+                                             % self.folder))
 
     def called(self, options):
-        path = os.path.join(self.root, "called")
+        path = os.path.join(self.folder, "called")
         if os.path.exists(path):
             os.remove(path)
         self.assertEqual(self.call("build", "all", CMAKE_OPTIONS=options),
-                         "ninja -C %s/build -j 7 all\n" % self.root)
+                         "ninja -C %s/build -j 7 all\n" % self.folder)
         if not os.path.exists(path):
             return None
         with open(path) as file:
@@ -78,7 +75,7 @@ class Build(Shell):
         self.write("bin/apt-get", "#!/bin/sh\n")
         for status, missing in ((0, "xvfb"), (1, "python3-vtk9 xvfb")):
             self.write("bin/python3", f"#!/bin/sh\nexit {status}\n")
-            python = os.path.join(self.root, "bin/python3")
+            python = os.path.join(self.folder, "bin/python3")
             self.assertEqual(self.call("build", PYTHON=python).splitlines()[0],
                              "installing: " + missing)
 

@@ -24,14 +24,14 @@ class Check(Folders):
         super().setUp()
         self.case = {"prm": "case.prm", "peak": 45e3}
         for name, text in (("case.prm", ""), ("plot.json", json.dumps(SPEC))):
-            with open(os.path.join(self.folder.name, name), "w") as file:
+            with open(os.path.join(self.folder, name), "w") as file:
                 file.write(text)
 
     def check(self, status=2):
         self.case["quoin"] = self.quoin(status)
         with contextlib.redirect_stdout(io.StringIO()):
             return wall_checks.compare_solvers(
-                self.case, self.folder.name, self.explicit, None)
+                self.case, self.folder, self.explicit, None)
 
     def test_errors(self):
         found = self.check()
@@ -65,13 +65,13 @@ class Check(Folders):
 
     def test_units(self):
         spec = dict(SPEC, y={"label": "force [N]"})
-        with open(os.path.join(self.folder.name, "plot.json"), "w") as file:
+        with open(os.path.join(self.folder, "plot.json"), "w") as file:
             json.dump(spec, file)
         with self.assertRaisesRegex(Failure, r"no 'peak \[kN\]'"):
             self.check()
 
     def table(self, **values):
-        results = os.path.join(self.folder.name, "results")
+        results = os.path.join(self.folder, "results")
         os.makedirs(results, exist_ok=True)
         write_result(results, "tue_wall_j4d_solvers", title="wall W: by both solvers",
                      reference="tests", error=0.1, tolerance=0.2, seconds=1.,

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 The quoin authors
 """Runs whose answers are known, written as quoin writes them, and a program
 that stands for quoin and copies them."""
+import argparse
 import json
 import os
 import sys
@@ -155,15 +156,32 @@ WIDE = [[2e-4, 0.], [0., 3e-4]]
 SLID = [[0., 0.], [-2e-4, 0.]]
 
 
-class Folders(unittest.TestCase):
+def program_of_words(doc):
+    """The executable that the word --quoin names, which unittest does not
+    know."""
+    parser = argparse.ArgumentParser(description=doc)
+    parser.add_argument("--quoin", required=True, help="the executable")
+    options, sys.argv[1:] = parser.parse_known_args()
+    return os.path.abspath(options.quoin)
+
+
+class Scratch(unittest.TestCase):
+    """Tests with a folder that goes with them."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+
+
+class Folders(Scratch):
     """An explicit run that settles, peaks at 40 kN and 2 mm and falls, and an
     implicit one that is 10 % lower and ends at 3 mm, in fewer rows."""
 
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
+        super().setUp()
         self.explicit, self.implicit = (
-            os.path.join(self.folder.name, name)
+            os.path.join(self.folder, name)
             for name in solver_comparison.SOLVERS)
         u = 1e-3 * np.array([0., 0., 1., 2., 3., 4.])
         f = -1e3 * np.array([5., 0., 20., 40., 30., 20.])
@@ -178,12 +196,12 @@ class Folders(unittest.TestCase):
 
     def compare(self, spec=None):
         return solver_comparison.Comparison(
-            spec or SPEC, self.folder.name, self.explicit, self.implicit)
+            spec or SPEC, self.folder, self.explicit, self.implicit)
 
     def quoin(self, status):
         """A program that ends the implicit run with this exit status."""
-        path = os.path.join(self.folder.name, "quoin")
+        path = os.path.join(self.folder, "quoin")
         with open(path, "w") as file:
-            file.write(QUOIN % (self.folder.name, status))
+            file.write(QUOIN % (self.folder, status))
         os.chmod(path, 0o755)
         return path

@@ -3,16 +3,14 @@
 # Copyright (C) 2026 The quoin authors
 """Traces from tables and drawings: what is read, what is cut where, and that
 the program reads the files that are left."""
-import argparse
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-from synthetic_runs import SCRIPTS
+from synthetic_runs import SCRIPTS, Scratch, program_of_words
 from quoin import traces
 
 CASE = """set Plane assumption = plane strain
@@ -79,12 +77,7 @@ DRAWING = [
     (0, "ENDSEC"), (0, "EOF")]
 
 
-class Files(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = scratch.name
-
+class Files(Scratch):
     def write(self, name, text):
         path = os.path.join(self.folder, name)
         with open(path, "w") as file:
@@ -282,8 +275,5 @@ class Cuts(Files):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quoin", required=True, help="the executable")
-    options, others = parser.parse_known_args()
-    quoin = os.path.abspath(options.quoin)
-    unittest.main(argv=sys.argv[:1] + others)
+    quoin = program_of_words(__doc__)
+    unittest.main()
