@@ -36,12 +36,6 @@ namespace quoin
       visitor.same(active, displacement, velocity);
       visitor.own(held, dim);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /**

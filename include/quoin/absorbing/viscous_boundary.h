@@ -132,12 +132,6 @@ namespace quoin
       visitor.same(active);
       visitor.own(held, dim);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /**

@@ -4,6 +4,9 @@
 #ifndef quoin_base_archive_members_h
 #define quoin_base_archive_members_h
 
+#include <boost/serialization/serialization.hpp>
+
+#include <utility>
 #include <vector>
 
 namespace quoin
@@ -72,9 +75,12 @@ namespace quoin
     Archive &archive;
   };
 
-  /** The serialize() of a part with a function visit(). */
+  /** Archives a part with a function visit(). Boost calls it with this type of
+      its version, for which its own serialize() needs a conversion. */
   template <typename Archive, typename Part>
-  void archive_members(Archive &archive, Part &part)
+  auto serialize(Archive &archive, Part &part,
+                 const boost::serialization::version_type)
+      -> decltype(part.visit(std::declval<ArchiveMembers<Archive> &>()))
   {
     ArchiveMembers<Archive> members(archive);
     part.visit(members);

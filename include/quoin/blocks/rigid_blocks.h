@@ -51,12 +51,6 @@ namespace quoin
     {
       visitor.own(static_cast<std::vector<RigidBlockState> &>(*this));
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /** Motion of the rigid blocks of a rank in a stage. */

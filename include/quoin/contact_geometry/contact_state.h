@@ -118,12 +118,6 @@ namespace quoin
       visitor.own(search_positions);
       visitor.same(next_check, foreseen, n_searches, skin, searched, renewal);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 } // namespace quoin
 

@@ -4,8 +4,6 @@
 #ifndef quoin_dynamics_largest_force_h
 #define quoin_dynamics_largest_force_h
 
-#include <quoin/base/archive_members.h>
-
 namespace quoin
 {
   /** The part of State by which a stage that takes all loads away knows how
@@ -20,12 +18,6 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.same(applied);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 } // namespace quoin

@@ -115,12 +115,6 @@ namespace quoin
                    velocity, traction);
       history.visit(visitor);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /**

@@ -33,12 +33,6 @@ namespace quoin
       visitor.own(held, 2);
       visitor.same(origin, stored, stored_before);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /**

@@ -4,7 +4,6 @@
 #ifndef quoin_implicit_implicit_state_h
 #define quoin_implicit_implicit_state_h
 
-#include <quoin/base/archive_members.h>
 #include <quoin/blocks/rigid_blocks.h>
 
 #include <string>
@@ -74,12 +73,6 @@ namespace quoin
                    jump_released, jump_rate, drag_step, drag_time, drag_path,
                    n_drag, watched_from, watched_drag, jump_loss, after_jump,
                    before_jump);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 } // namespace quoin

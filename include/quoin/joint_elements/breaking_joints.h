@@ -31,12 +31,6 @@ namespace quoin
     {
       visitor.own(points, dim, JointHistoryOf<dim>::slice_name);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 } // namespace quoin
 

@@ -66,12 +66,6 @@ namespace quoin
       visitor.own(placed_opening, 3);
       visitor.own(elastic_origin, 6);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /** The history of the joints of a model. */

@@ -4,7 +4,6 @@
 #ifndef quoin_joints_joint_history_h
 #define quoin_joints_joint_history_h
 
-#include <quoin/base/archive_members.h>
 #include <quoin/base/node_record.h>
 
 #include <array>
@@ -80,12 +79,6 @@ namespace quoin
       visitor.own(placed_slip, 2);
       visitor.own(placed_opening, 2);
       visitor.own(elastic_origin, 2);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 } // namespace quoin

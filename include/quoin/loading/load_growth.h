@@ -4,7 +4,6 @@
 #ifndef quoin_loading_load_growth_h
 #define quoin_loading_load_growth_h
 
-#include <quoin/base/archive_members.h>
 #include <quoin/signals/time_function.h>
 
 #include <vector>
@@ -22,12 +21,6 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.same(blocks, loads, growth);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 
@@ -48,12 +41,6 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.same(nodal, constraints, beams, placed);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 } // namespace quoin

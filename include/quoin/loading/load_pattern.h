@@ -35,12 +35,6 @@ namespace quoin
     {
       visitor.same(factor, start, mean_start, mean, rate, wanted, ratio);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /** A term of a sum of displacements. */

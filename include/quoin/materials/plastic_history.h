@@ -4,7 +4,6 @@
 #ifndef quoin_materials_plastic_history_h
 #define quoin_materials_plastic_history_h
 
-#include <quoin/base/archive_members.h>
 #include <quoin/base/node_record.h>
 
 #include <cstddef>
@@ -62,12 +61,6 @@ namespace quoin
       visitor.cells(space_cells);
       visitor.cells(shear);
       visitor.cells(yielding);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 } // namespace quoin

@@ -4,7 +4,6 @@
 #ifndef quoin_model_construction_state_h
 #define quoin_model_construction_state_h
 
-#include <quoin/base/archive_members.h>
 #include <quoin/base/node_record.h>
 
 #include <vector>
@@ -25,12 +24,6 @@ namespace quoin
     {
       visitor.owned_nodes(force, dim);
       visitor.same(left, left_at_end);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 
@@ -55,12 +48,6 @@ namespace quoin
     {
       visitor.each(held);
       visitor.cells(initial_stress, n_stresses);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 } // namespace quoin

@@ -45,12 +45,6 @@ namespace quoin
       visitor.same(active, centre, displacement, stage_start, velocity);
       visitor.own(arms, 2);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /**

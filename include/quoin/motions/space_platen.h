@@ -32,12 +32,6 @@ namespace quoin
                    rotation);
       visitor.own(arms, 3);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   dealii::Tensor<2, 3> rotation_of(const SpacePlatenState &platen);

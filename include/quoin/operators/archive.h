@@ -4,6 +4,7 @@
 #ifndef quoin_operators_archive_h
 #define quoin_operators_archive_h
 
+#include <quoin/base/archive_members.h>
 #include <quoin/base/node_record.h>
 #include <quoin/operators/redistribution.h>
 #include <quoin/operators/state_slices.h>

@@ -108,13 +108,6 @@ namespace quoin
       visitor.sums(energy, pending);
     }
 
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-      archive_slices(archive);
-    }
-
     /** Copies entries of this rank from @p part, with the same slices. */
     template <typename Moves>
     void take(State &part, Moves &moves)
@@ -123,6 +116,16 @@ namespace quoin
       take_slices(part, moves);
     }
   };
+
+  /** As that of any part, with the slices. */
+  template <typename Archive, int dim>
+  void serialize(Archive &archive, State<dim> &state,
+                 const boost::serialization::version_type)
+  {
+    ArchiveMembers<Archive> members(archive);
+    state.visit(members);
+    state.archive_slices(archive);
+  }
 } // namespace quoin
 
 #endif

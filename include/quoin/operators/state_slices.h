@@ -90,12 +90,12 @@ namespace quoin
     /** Copies the slices of @p other that this one has, too. */
     void copy_slices(const StateSlices &other);
 
-  protected:
     /** Throw a boost::archive::archive_exception if the archive has other
         slices than those that were added. */
     void archive_slices(boost::archive::binary_oarchive &archive);
     void archive_slices(boost::archive::binary_iarchive &archive);
 
+  protected:
     /** Copies what belongs to this rank from the same slices of @p part. */
     void take_slices(StateSlices &part, Redistribution &moves);
 

@@ -4,8 +4,6 @@
 #ifndef quoin_reinforcement_bar_chain_h
 #define quoin_reinforcement_bar_chain_h
 
-#include <quoin/base/archive_members.h>
-
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -100,11 +98,6 @@ namespace quoin
                    plate_plastic, plate_force, anchor_plastic, anchor_force);
       visitor.same(start, dowel_start, dowel_plastic, dowel_force, dowel_motion,
                    dowel_broken);
-    }
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 

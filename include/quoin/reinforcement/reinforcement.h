@@ -28,11 +28,6 @@ namespace quoin
     {
       visitor.each(bars);
     }
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /**

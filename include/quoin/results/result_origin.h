@@ -40,12 +40,6 @@ namespace quoin
       visitor.own(slip, dim * (dim - 1), JointHistoryOf<dim>::slice_name);
       visitor.own(has_failed, dim, JointHistoryOf<dim>::slice_name);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /** Notes which joints slip or are open by @p state: in each step after the

@@ -4,7 +4,6 @@
 #ifndef quoin_signals_time_function_h
 #define quoin_signals_time_function_h
 
-#include <quoin/base/archive_members.h>
 #include <quoin/signals/signal.h>
 #include <quoin/operators/step_context.h>
 
@@ -49,12 +48,6 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.same(duration, passed);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 

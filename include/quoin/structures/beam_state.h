@@ -39,12 +39,6 @@ namespace quoin
       for (AlignedArray<double> &variable : interface.internal)
         visitor.same(variable);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 } // namespace quoin
 

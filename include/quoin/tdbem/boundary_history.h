@@ -33,12 +33,6 @@ namespace quoin
       // With the first rank's groups all begin.
       visitor.same(first_group);
     }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
-    }
   };
 
   /**

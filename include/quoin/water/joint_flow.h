@@ -4,7 +4,6 @@
 #ifndef quoin_water_joint_flow_h
 #define quoin_water_joint_flow_h
 
-#include <quoin/base/archive_members.h>
 #include <quoin/joint_elements/matched_joints.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/water/joint_channels.h>
@@ -48,12 +47,6 @@ namespace quoin
       visitor.own(point_saturation, 2, JointHistory::slice_name);
       visitor.own(flow, 1, JointHistory::slice_name);
       visitor.own(velocity, 1, JointHistory::slice_name);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 

@@ -12,6 +12,8 @@ using namespace quoin;
 
 namespace
 {
+  using quoin::serialize;
+
   struct Item
   {
     std::vector<double> force;
@@ -22,11 +24,6 @@ namespace
     {
       visitor.owned_nodes(force, 2);
       visitor.same(share);
-    }
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 
@@ -65,11 +62,6 @@ namespace
       visitor.joined(parts);
       visitor.each(items);
       visitor.sums(sum);
-    }
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 

@@ -12,6 +12,8 @@ using namespace quoin;
 
 namespace
 {
+  using quoin::serialize;
+
   struct Temperature
   {
     static constexpr const char *slice_name = "temperature";
@@ -22,12 +24,6 @@ namespace
     void visit(Visitor &visitor)
     {
       visitor.own(values);
-    }
-
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive_members(archive, *this);
     }
   };
 
