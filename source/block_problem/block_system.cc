@@ -121,7 +121,7 @@ namespace quoin
           if (this_mpi_process(communicator) != 0)
             return;
           fingerprint = run_fingerprint(parameters, as_read);
-          split_into_blocks(as_read, parameters.split, mesh);
+          mesh        = split_into_blocks(as_read, parameters.split);
           as_read     = MeshData<dim>();
           mesh_report = make_mesh_report(mesh);
           if (parameters.model.large_displacements)

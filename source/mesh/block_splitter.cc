@@ -605,19 +605,21 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  void split_into_blocks(const MeshData<dim> &data, const SplitOptions &options,
-                         BlockMesh<dim> &mesh,
-                         const std::vector<unsigned int> *block_order)
+  BlockMesh<dim> split_into_blocks(const MeshData<dim> &data,
+                                   const SplitOptions &options,
+                                   const std::vector<unsigned int> *block_order)
   {
+    BlockMesh<dim> mesh;
     Splitter<dim>(data, options, mesh).run();
     if (block_order != nullptr)
       renumber_blocks(mesh, *block_order);
+    return mesh;
   }
 
-  template void split_into_blocks(const MeshData<2> &, const SplitOptions &,
-                                  BlockMesh<2> &,
-                                  const std::vector<unsigned int> *);
-  template void split_into_blocks(const MeshData<3> &, const SplitOptions &,
-                                  BlockMesh<3> &,
-                                  const std::vector<unsigned int> *);
+  template BlockMesh<2> split_into_blocks(const MeshData<2> &,
+                                          const SplitOptions &,
+                                          const std::vector<unsigned int> *);
+  template BlockMesh<3> split_into_blocks(const MeshData<3> &,
+                                          const SplitOptions &,
+                                          const std::vector<unsigned int> *);
 } // namespace quoin

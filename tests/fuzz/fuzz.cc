@@ -210,8 +210,7 @@ namespace
     for (std::size_t i = 1; i < data.face_names.size(); ++i)
       if (mutator.below(2) == 0)
         options.joints_along.push_back(data.face_names[i]);
-    BlockMesh<dim> mesh;
-    split_into_blocks(data, options, mesh);
+    BlockMesh<dim> mesh = split_into_blocks(data, options);
     require(mesh.n_blocks() > 0, "a mesh without blocks was accepted");
     const MeshReport report = make_mesh_report(mesh);
     require(!report.to_text().empty(), "no report");

@@ -76,10 +76,9 @@ namespace quoin
    * or blocks that overlap; refused joint ends.
    */
   template <int dim>
-  void split_into_blocks(const MeshData<dim> &data, const SplitOptions &options,
-                         BlockMesh<dim> &mesh,
-                         const std::vector<unsigned int> *block_order
-                         = nullptr);
+  BlockMesh<dim>
+  split_into_blocks(const MeshData<dim> &data, const SplitOptions &options,
+                    const std::vector<unsigned int> *block_order = nullptr);
 } // namespace quoin
 
 #endif

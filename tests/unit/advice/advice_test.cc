@@ -28,8 +28,7 @@ namespace
   /** Advice about the model and stage @p stage, in one text. */
   std::string advice(const Parameters &parameters, const unsigned int stage = 0)
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
+    BlockMesh<2> mesh = make_stack(3, 2);
     const TestNodes nodes(mesh);
     const Model<2> model(nodes, parameters.model);
     std::string text;
@@ -321,8 +320,7 @@ TEST(InputAdvice, BendingWithFewCellsAcross)
   add_grid(data, 12, 2, "lower", 0., 0.);
   add_curve(data, "bottom", 0., 0., 0., 2.);
   add_curve(data, "top", 0., 2., 12., 2.);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh     = split_into_blocks(data, {});
   Parameters parameters = good_parameters();
   parameters.model.joints.clear();
   parameters.model.materials.resize(1);
@@ -364,8 +362,7 @@ TEST(InputAdvice, BendingWithFewCellsAcross)
 TEST(ModelSummary, SaysWhatThereIs)
 {
   const Parameters parameters = good_parameters();
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh           = make_stack(3, 2);
   const TestNodes nodes(mesh);
   const Model<2> model(nodes, parameters.model);
   const auto materials = material_lines<2>(
@@ -415,9 +412,8 @@ TEST(ModelSummary, LoadsWhoseFactorIsSought)
   parameters.loads[1]          = traction("push", "top", "1e3", "");
   parameters.stages[0].loads   = { "base" };
   parameters.stages[0].pattern = PatternParameters{ { "push" }, {}, {} };
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  const auto loads = load_lines<2>(parameters, TestNodes(mesh));
+  BlockMesh<2> mesh            = make_stack(3, 2);
+  const auto loads             = load_lines<2>(parameters, TestNodes(mesh));
   ASSERT_EQ(loads.size(), 2U);
   EXPECT_EQ(loads[1], "load push: traction on 4 nodes of top, horizontal 1000 "
                       "Pa, times the factor that stage stage seeks");
@@ -429,8 +425,8 @@ namespace
       have 1e7 Pa/m: 1250 kg on a spring of 1e7 N/m, 89.4 rad/s. */
   Advice soft_contacts(const Agitation &loads)
   {
-    BlockMesh<2> mesh;
-    make_blocks(mesh, { { 0., 0., 1., 1., 2, 2 }, { 1.01, 0., 1., 1., 3, 3 } });
+    BlockMesh<2> mesh
+        = make_blocks({ { 0., 0., 1., 1., 2, 2 }, { 1.01, 0., 1., 1., 3, 3 } });
     ModelParameters parameters;
     parameters.plane     = PlaneAssumption::plane_stress;
     parameters.materials = { material("stone") };
@@ -511,14 +507,13 @@ TEST(ContactAdvice, ContactsAgainstBlocks)
   // E/L is 1e10 Pa/m.
   for (const double kn : { 0.9e7, 1.1e7 })
   {
-    BlockMesh<2> mesh;
-    make_blocks(mesh, { { 0., 0., 1., 1., 2, 2 } });
     ModelParameters parameters;
     parameters.materials                               = { material("stone") };
     parameters.joints                                  = { touching() };
     coulomb_law(parameters.joints[0]).normal_stiffness = kn;
     parameters.large_displacements                     = true;
-    const TestNodes nodes(mesh, parameters.materials);
+    const TestNodes nodes(make_blocks({ { 0., 0., 1., 1., 2, 2 } }),
+                          parameters.materials);
     const Model<2> model(nodes, parameters);
     Advice advice;
     check_contacts(model, advice);

@@ -259,7 +259,7 @@ namespace
       add_curve(data, "bottom", 0., 0., 1., 0.);
       add_curve(data, "left", 0., 0., 0., 1.);
       add_curve(data, "top", 0., 1., 1., 1.);
-      split_into_blocks(data, {}, mesh);
+      mesh = split_into_blocks(data, {});
       ModelParameters parameters;
       parameters.plane = plane;
       parameters.materials
@@ -448,8 +448,7 @@ TEST(PlasticBlocks, SimpleShearToOne)
 // which nothing moves, and booked.
 TEST(PlasticBlocks, InitialStressBeyondTheStrength)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh          = make_stack(2, 2);
   ModelParameters parameters = two_blocks();
   for (auto &material : parameters.materials)
     material.strength = MohrCoulombStrength{ 1e6, 0., 0. };

@@ -127,8 +127,7 @@ TEST(StableTimeStep, LargestEigenvalueAndMassScaling)
 
 TEST(StableTimeStep, BoundsTheLargestFrequencyClosely)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   for (const auto &[kn, ks] : joint_stiffnesses)
   {
     const TestNodes nodes(mesh);
@@ -147,8 +146,7 @@ TEST(HighestFrequency, IsThatOfTheAssembledOperator)
   for (const unsigned int n : { 2U, 5U })
     for (const auto &[kn, ks] : joint_stiffnesses)
     {
-      BlockMesh<2> mesh;
-      make_stack(mesh, 2 * n, n);
+      BlockMesh<2> mesh          = make_stack(2 * n, n);
       ModelParameters parameters = two_blocks(kn, ks);
       parameters.materials       = { material("lower", 8000., 1e9, 0.4),
                                      material("upper", 1000., 5e10, 0.) };
@@ -191,8 +189,7 @@ TEST(HighestFrequency, IsFoundOnceForOneStiffnessAndMass)
 TEST(StepLimit, NamesTheStiffestBody)
 {
   // Cells of the light and stiff block above, then stiff joints between.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 8, 4);
+  BlockMesh<2> mesh = make_stack(8, 4);
   for (const double kn : { 1e3, 1e15 })
   {
     ModelParameters parameters = two_blocks(kn, 0.5 * kn);
@@ -231,8 +228,7 @@ TEST(StepLimit, NamesTheStiffestBody)
 TEST(StableTimeStep, BoundsTheLargestFrequencyOfUnequalBlocks)
 {
   // Stiff and light on soft and heavy, at all joint stiffnesses.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh = make_stack(2, 1);
   for (const auto &[kn, ks] : joint_stiffnesses)
   {
     ModelParameters parameters = two_blocks(kn, ks);
@@ -253,8 +249,7 @@ TEST(StableTimeStep, BoundsTheFrequencyWhereFourBlocksMeet)
   for (const double x : { 0., 1. })
     for (const double y : { 0., 1. })
       add_grid(data, 1, 1, "rock", x, y);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   ASSERT_EQ(mesh.n_blocks(), 4U);
   for (const auto &[kn, ks] : joint_stiffnesses)
   {
@@ -273,8 +268,7 @@ TEST(StableTimeStep, BoundsTheFrequencyWhereFourBlocksMeet)
 
 TEST(StableTimeStep, RunsAtTheBoundStayBounded)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   for (const auto &[kn, ks] : joint_stiffnesses)
     for (const double beta : { 0., 2e-4 })
     {
@@ -292,8 +286,7 @@ TEST(StableTimeStep, RunsAtTheBoundStayBounded)
 TEST(StableTimeStep, RunsAboveTheLargestFrequencyBlowUp)
 {
   // So that the test above would notice a step that is too long.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   for (const auto &[kn, ks] : joint_stiffnesses)
   {
     TestRun run(mesh, two_blocks(kn, ks), {});

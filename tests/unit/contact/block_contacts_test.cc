@@ -28,9 +28,9 @@ namespace
     State<2> state;
     AlignedArray<dealii::Tensor<1, 2>> force;
 
-    Scene(const std::function<void(BlockMesh<2> &)> &make,
+    Scene(const std::function<BlockMesh<2>()> &make,
           const std::vector<JointSetParameters> &sets = { touching() })
-      : mesh(made(make)), nodes(mesh)
+      : mesh(make()), nodes(mesh)
     {
       joints.prepare(nodes, sets, thickness);
       contacts
@@ -44,15 +44,8 @@ namespace
 
     explicit Scene(const std::vector<Rectangle> &rectangles,
                    const std::vector<JointSetParameters> &sets = { touching() })
-      : Scene([&](BlockMesh<2> &mesh) { make_blocks(mesh, rectangles); }, sets)
+      : Scene([&] { return make_blocks(rectangles); }, sets)
     {
-    }
-
-    static BlockMesh<2> made(const std::function<void(BlockMesh<2> &)> &make)
-    {
-      BlockMesh<2> result;
-      make(result);
-      return result;
     }
 
     /** Block that has a vertex at the reference position. */
@@ -380,8 +373,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
     for (const double angle :
          { 0., std::holds_alternative<CompositeLaw>(joint.law) ? 2e-4 : 0.008 })
     {
-      Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); },
-                  { joint, touching() });
+      Scene scene([] { return make_stack(3, 1); }, { joint, touching() });
       const unsigned int upper = scene.block_at(0., 2.);
       scene.move(upper, 0., -closing);
       scene.turn(upper, angle, 3., 1.);
@@ -455,8 +447,7 @@ TEST(BlockContacts, TheLengthOfAHandedOverJointDoesNotJump)
 {
   JointSetParameters weak = elastic_joint(kn, ks);
   coulomb_law(weak).peak = coulomb_law(weak).residual = { 0., 0.1, 0. };
-  Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 1, 1); },
-              { weak, touching() });
+  Scene scene([] { return make_stack(1, 1); }, { weak, touching() });
   const unsigned int upper = scene.block_at(0., 2.);
   scene.move(upper, 0., -closing);
   scene.find_forces();
@@ -483,8 +474,7 @@ TEST(BlockContacts, HandedOverJointsGoOnFromTheirHistory)
   law.peak                 = { 1e4, 0.5, 0. };
   law.residual             = { 0., 0.5, 0. };
   law.dilation             = 0.01;
-  Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); },
-              { plain, touching() });
+  Scene scene([] { return make_stack(3, 1); }, { plain, touching() });
   const unsigned int upper = scene.block_at(0., 2.);
   scene.move(upper, 0., -closing);
   JointHistory twin  = scene.state.get<JointHistory>();
@@ -555,7 +545,7 @@ TEST(BlockContacts, HandedOverJointsStayCrushed)
 {
   JointSetParameters mortar = crushing_mortar();
   mortar.curves             = { "joint" };
-  Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); }, { mortar });
+  Scene scene([] { return make_stack(3, 1); }, { mortar });
   const unsigned int upper = scene.block_at(0., 2.);
   const auto law           = std::get<CompositeLaw>(mortar.law);
   JointHistory twin        = scene.state.get<JointHistory>();
@@ -812,9 +802,7 @@ TEST(BlockContacts, WhatGoesDeepWithinAStepStops)
 
 TEST(BlockContacts, EveryPairOfMaterialsNeedsASet)
 {
-  BlockMesh<2> mesh;
-  make_blocks(mesh, { { 0., 0., 1., 1., 1, 1 } });
-  const TestNodes nodes(mesh);
+  const TestNodes nodes(make_blocks({ { 0., 0., 1., 1., 1, 1 } }));
   const MatchedJoints joints;
   ContactModel model = contact_model({ elastic_joint(kn, ks) });
   EXPECT_THROW(BlockContacts(nodes, joints, model), InputError);
@@ -839,8 +827,7 @@ TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)
   for (unsigned int i = 0; i < 20; ++i)
     rectangles.push_back({ place(random), place(random), size(random),
                            size(random), 1 + i % 4, 1 + i % 3, angle(random) });
-  BlockMesh<2> mesh;
-  make_blocks(mesh, rectangles);
+  BlockMesh<2> mesh = make_blocks(rectangles);
   const TestNodes nodes(mesh);
   const ContactEdges edges(nodes);
   std::vector<EdgeEnds> ends;
@@ -896,8 +883,7 @@ TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)
 
 TEST(ContactEdges, RunAroundTheirBlocks)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   const TestNodes nodes(mesh);
   const ContactEdges edges(nodes);
   ASSERT_EQ(edges.n_global(), 20U);

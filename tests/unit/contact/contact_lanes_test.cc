@@ -252,16 +252,12 @@ namespace
       rectangles.push_back(
           { 0.5 * i + 0.2, 0.5, 0.5, 0.5, 2 + i % 2, 1 + i % 2 });
     }
-    BlockMesh<2> mesh;
-    make_blocks(mesh, rectangles);
-    return mesh;
+    return make_blocks(rectangles);
   }
 
   BlockMesh<2> stack()
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 5, 2);
-    return mesh;
+    return make_stack(5, 2);
   }
 
   void expect_same(const Comparison &all, const std::string &name,

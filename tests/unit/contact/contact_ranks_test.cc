@@ -270,9 +270,7 @@ namespace
     for (unsigned int c = 0; c < n_columns; ++c)
       for (unsigned int r = 0; r < n_rows; ++r)
         rectangles.push_back({ 1.02 * c, 1.02 * r, 1., 1., 4, 4 });
-    BlockMesh<2> mesh;
-    make_blocks(mesh, rectangles);
-    return mesh;
+    return make_blocks(rectangles);
   }
 
   /** Columns are pushed into each other and slide past each other. */
@@ -334,8 +332,7 @@ TEST(ContactsOfRanks, FollowBlocksThatMeetAnew)
   std::vector<Rectangle> rectangles;
   for (unsigned int i = 0; i < 24; ++i)
     rectangles.push_back({ 1.1 * (i % 12), i < 12 ? 0. : 1.001, 1., 1., 3, 2 });
-  BlockMesh<2> mesh;
-  make_blocks(mesh, rectangles);
+  BlockMesh<2> mesh = make_blocks(rectangles);
   Twins twins(mesh, whole_blocks(mesh, [&](const unsigned int block)
                                  { return block * n_ranks() / 24; }));
   for (unsigned int i = 0; i < 75; ++i)
@@ -358,8 +355,7 @@ TEST(ContactsOfRanks, GoOnFromJointsThatAreHandedOver)
   JointSetParameters joint    = elastic_joint(kn, ks);
   coulomb_law(joint).peak     = { 1e4, 0.5, 0. };
   coulomb_law(joint).residual = { 0., 0.5, 0. };
-  BlockMesh<2> mesh;
-  make_stack(mesh, 6, 2);
+  BlockMesh<2> mesh           = make_stack(6, 2);
   const Ranks whole
       = whole_blocks(mesh, [&](const unsigned int block)
                      { return (block + n_ranks() - 1) % n_ranks(); });
@@ -389,8 +385,8 @@ TEST(ContactsOfRanks, GoOnWhereABlockIsDivided)
   // A block slides over another one, there and back, and both are divided, so
   // that contacts pass from rank to rank on either side. Each new pair begins
   // beside one that has slipped.
-  BlockMesh<2> mesh;
-  make_blocks(mesh, { { 0., 0., 6., 1., 13, 2 }, { 0.2, 1., 3., 1., 7, 3 } });
+  BlockMesh<2> mesh
+      = make_blocks({ { 0., 0., 6., 1., 13, 2 }, { 0.2, 1., 3., 1., 7, 3 } });
   JointSetParameters softening    = touching();
   coulomb_law(softening).peak     = { 1e4, 0.8, 0. };
   coulomb_law(softening).residual = { 0., 0.4, 0. };
@@ -455,8 +451,8 @@ TEST(ContactsOfRanks, EdgesFollowEachOtherFromRankToRank)
 
 TEST(ContactsOfRanks, StopAtADeepOverlapWithTheSameWords)
 {
-  BlockMesh<2> mesh;
-  make_blocks(mesh, { { 0., 0., 3., 1., 3, 1 }, { 0.3, 1., 2., 1., 2, 1 } });
+  BlockMesh<2> mesh
+      = make_blocks({ { 0., 0., 3., 1., 3, 1 }, { 0.3, 1., 2., 1., 2, 1 } });
   Twins twins(mesh, whole_blocks(mesh, [&](const unsigned int block)
                                  { return (block + 1) % n_ranks(); }));
   const auto message = [](Assembly &assembly) -> std::string

@@ -17,13 +17,13 @@ namespace
   constexpr double distance = 1. + gap;
 
   /** n x n blocks of 1 m with gaps. */
-  void make_array(BlockMesh<2> &mesh)
+  BlockMesh<2> make_array()
   {
     std::vector<Rectangle> rectangles;
     for (unsigned int i = 0; i < n * n; ++i)
       rectangles.push_back(
           { i % n * distance, i / n * distance, 1., 1., 4, 4 });
-    make_blocks(mesh, rectangles);
+    return make_blocks(rectangles);
   }
 
   ModelParameters loose_blocks(const double skin)
@@ -83,8 +83,7 @@ namespace
 
 TEST(ContactSkin, LooksAtFewPairsAndChangesNothing)
 {
-  BlockMesh<2> mesh;
-  make_array(mesh);
+  BlockMesh<2> mesh = make_array();
   const auto wide = shaken(mesh, 0.05), automatic = shaken(mesh, 0.);
   double largest = 0., error = 0.;
   for (unsigned int i = 0; i < wide->state.nodes.size(); ++i)
@@ -107,8 +106,7 @@ TEST(ContactSkin, LooksAtFewPairsAndChangesNothing)
 
 TEST(ContactSkin, DistantPairsAreLookedAtInTime)
 {
-  BlockMesh<2> mesh;
-  make_array(mesh);
+  BlockMesh<2> mesh            = make_array();
   const auto some              = shaken(mesh, 0.1, { 0., 1. }),
              all               = shaken(mesh, 0.1, { 0., 1., true });
   const ContactState &contacts = some->state.get<ContactState>();
@@ -124,8 +122,7 @@ TEST(ContactSkin, DistantPairsAreLookedAtInTime)
 
 TEST(ContactSkin, WhatAllBlocksShareCallsForNoSearch)
 {
-  BlockMesh<2> mesh;
-  make_array(mesh);
+  BlockMesh<2> mesh = make_array();
   const auto still = shaken(mesh, 0.), drifts = shaken(mesh, 0., { 20. });
   EXPECT_GT(n_searches(*still), 5.);
   EXPECT_NEAR(n_searches(*drifts), n_searches(*still),
@@ -135,11 +132,10 @@ TEST(ContactSkin, WhatAllBlocksShareCallsForNoSearch)
 TEST(BlockGaps, AreThoseOfTheNearestBlockThatIsNotTouched)
 {
   // Two blocks that touch, one 0.03 m beside, one far away.
-  BlockMesh<2> mesh;
-  make_blocks(mesh, { { 0., 0., 1., 1., 2, 2 },
-                      { 0.25, 1., 1., 1., 3, 3 },
-                      { 1.03, 0., 1., 0.9, 2, 2 },
-                      { 5., 0., 1., 1., 1, 1 } });
+  BlockMesh<2> mesh = make_blocks({ { 0., 0., 1., 1., 2, 2 },
+                                    { 0.25, 1., 1., 1., 3, 3 },
+                                    { 1.03, 0., 1., 0.9, 2, 2 },
+                                    { 5., 0., 1., 1., 1, 1 } });
   const TestNodes nodes(mesh);
   State<2> state;
   for (const auto &p : mesh.vertices)

@@ -62,12 +62,10 @@ namespace
 
     static BlockMesh<2> mesh(const bool may_meet, const unsigned int n)
     {
-      BlockMesh<2> result;
-      if (may_meet)
-        make_blocks(result, { { 0., 0., 1., 1., n, n },
-                              { 0., 1. + gap, 1., 1., n, n } });
-      else
-        make_stack(result, n, n);
+      BlockMesh<2> result
+          = may_meet ? make_blocks(
+                { { 0., 0., 1., 1., n, n }, { 0., 1. + gap, 1., 1., n, n } })
+                     : make_stack(n, n);
       for (auto &p : result.vertices)
         if (!may_meet)
           p = { p[0] / n, p[1] / n };

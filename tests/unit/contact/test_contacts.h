@@ -22,8 +22,7 @@ namespace quoin::test
   };
 
   /** Each rectangle is a block of the group "stone"; none share nodes. */
-  inline void make_blocks(BlockMesh<2> &mesh,
-                          const std::vector<Rectangle> &rectangles)
+  inline BlockMesh<2> make_blocks(const std::vector<Rectangle> &rectangles)
   {
     MeshData<2> data;
     data.group_names = { "stone" };
@@ -48,7 +47,7 @@ namespace quoin::test
           data.cell_group.push_back(0);
         }
     }
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   inline JointSetParameters touching(const double friction = 0.5)

@@ -124,9 +124,7 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
 {
   for (const bool rigid : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
-    TestRun run(mesh, under_stress(rigid), {});
+    TestRun run(make_stack(3, 2), under_stress(rigid), {});
     const std::vector<StageParameters> stages
         = { stage_of({ "upper" }, {}, 0.25), stage_of({}, {}, 1.) };
     Construction construction(run.model, stages);
@@ -171,9 +169,7 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
 
 TEST(Construction, ASearchForTheFactorOfSafetyKeepsTheSupport)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, under_stress(), {});
+  TestRun run(make_stack(3, 2), under_stress(), {});
   std::vector<StageParameters> stages
       = { stage_of({ "upper" }, {}, 0.25), stage_of({}, {}), stage_of({}, {}) };
   stages[1].safety.emplace();
@@ -194,9 +190,7 @@ TEST(Construction, ASearchForTheFactorOfSafetyKeepsTheSupport)
 
 TEST(Construction, PlacedBlocksAreFreeOfStress)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, under_stress(), {});
+  TestRun run(make_stack(3, 2), under_stress(), {});
   for (NodeRecord<2> &node : run.state.nodes)
     node.u[1] += 1e-4 * node.X[0];
   Construction construction(
@@ -218,9 +212,7 @@ TEST(Construction, EnergyOfMovingBlocksIsAccountedFor)
 {
   for (const bool rigid : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
-    TestRun run(mesh, without_stress(rigid), {});
+    TestRun run(make_stack(3, 2), without_stress(rigid), {});
     EXPECT_LT(residual_in_motion(run, { stage_of({ "upper" }, {}, 0.6),
                                         stage_of({}, { "upper" }) }),
               1e-5); // what turns with the gaps of the placed joint
@@ -233,8 +225,7 @@ TEST(Construction, WeightOfPlacedBlocksComesQuietly)
   // is there at once, and hardly farther under one whose weight grows.
   for (const bool sudden : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 1, 8);
+    BlockMesh<2> mesh     = make_stack(1, 8);
     LoadParameters weight = gravity("0", "-10");
     weight.groups         = { "upper" };
     if (sudden)
@@ -308,9 +299,7 @@ TEST(Construction, LoadsGoOnGrowingAfterAStageThatEndsEarly)
   // Gravity that begins, and weight on a block that is placed.
   for (const bool is_placed : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 1, 8);
-    TestRun run(mesh, without_stress(),
+    TestRun run(make_stack(1, 8), without_stress(),
                 { gravity("0", "-10"), motion("base", "bottom", "0", "0"),
                   motion("rollers", "sides", "0", "") });
     std::vector<StageParameters> stages
@@ -353,9 +342,7 @@ TEST(Construction, LoadsGoOnGrowingAfterAStageThatEndsEarly)
 TEST(Construction, LoadsThatChangeDoNotJumpWhereAStageEndsEarly)
 {
   // Gravity that rises with the time of the run, on a block that is placed.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 8);
-  TestRun run(mesh, without_stress(),
+  TestRun run(make_stack(1, 8), without_stress(),
               { gravity("0", "-10*(1+50*T)"),
                 motion("base", "bottom", "0", "0"),
                 motion("rollers", "sides", "0", "") });
@@ -393,8 +380,7 @@ TEST(Construction, LoadsThatChangeDoNotJumpWhereAStageEndsEarly)
 
 TEST(Construction, LoadsInEquilibriumGoOnGrowingInTheNextStage)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 2);
+  BlockMesh<2> mesh     = make_stack(1, 2);
   LoadParameters weight = gravity("0", "-10");
   weight.ramp_duration  = 2.5;
   ImplicitRun run(mesh, without_stress(),
@@ -414,9 +400,7 @@ TEST(Construction, LoadsInEquilibriumGoOnGrowingInTheNextStage)
 
 TEST(Construction, WaterAtPlacedBlocksGrowsAsTheirWeight)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 8);
-  TestRun run(mesh, without_stress(),
+  TestRun run(make_stack(2, 8), without_stress(),
               { gravity("0", "-10"), motion("base", "bottom", "0", "0"),
                 motion("rollers", "sides", "0", "") });
   WaterParameters given;
@@ -483,7 +467,7 @@ TEST(Construction, WaterAtPlacedBlocksGrowsAsTheirWeight)
 namespace
 {
   /** Two blocks, one on the other, with a wall along both of them. */
-  void make_wall(BlockMesh<2> &mesh)
+  BlockMesh<2> make_wall()
   {
     MeshData<2> data;
     for (const unsigned int i : { 0U, 1U })
@@ -495,7 +479,7 @@ namespace
     add_curve(data, "bottom", 0., 0., 3., 0.);
     add_curve(data, "joint", 0., 2., 3., 2.);
     add_curve(data, "top", 0., 4., 3., 4.);
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   /** A liner of that wall. */
@@ -520,9 +504,7 @@ namespace
 TEST(Construction, EnergyOfLinersIsAccountedFor)
 {
   // The upper block goes and comes again.
-  BlockMesh<2> mesh;
-  make_wall(mesh);
-  TestRun run(mesh, without_stress(), {});
+  TestRun run(make_wall(), without_stress(), {});
   add_liner(run);
   EXPECT_LT(residual_in_motion(run, { stage_of({ "upper" }, {}, 0.6),
                                       stage_of({}, { "upper" }) }),
@@ -535,9 +517,7 @@ TEST(Construction, EnergyOfLinersIsAccountedFor)
 
 TEST(Construction, EnergyOfLinersInEquilibriumIsAccountedFor)
 {
-  BlockMesh<2> mesh;
-  make_wall(mesh);
-  ImplicitRun run(mesh, without_stress(),
+  ImplicitRun run(make_wall(), without_stress(),
                   { motion("hold", "bottom", "0", "0"),
                     traction("press", "top", "", "-1e4*t") });
   add_liner(run);
@@ -562,9 +542,7 @@ TEST(Construction, LoadsOfBeamsGrowWithTheWeight)
 {
   // A beam that the first stage places and one of the second stage, in which
   // weight still grows.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 8);
-  TestRun run(mesh, without_stress(),
+  TestRun run(make_stack(1, 8), without_stress(),
               { gravity("0", "-10"), motion("base", "bottom", "0", "0"),
                 motion("rollers", "sides", "0", "") });
   std::vector<BeamParameters> beams(2);
@@ -625,8 +603,7 @@ TEST(Construction, LoadsOfBeamsGrowWithTheWeight)
 
 TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh          = make_stack(3, 2);
   ModelParameters parameters = under_stress();
   MaterialParameters soft    = material("soft", 2500., 3e9, 0.3);
   soft.groups.clear();
@@ -672,8 +649,7 @@ TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
 
 TEST(Construction, RockJointsFollowLawsOfRockJointsOnly)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh          = make_stack(3, 2);
   ModelParameters parameters = two_blocks();
   parameters.joints.push_back(elastic_joint(5e9, 2e9, "weak"));
   parameters.joints.back().curves.clear();

@@ -45,10 +45,8 @@ namespace
 TEST(ExplicitSolver, EnergyBalanceOfAnElasticModel)
 {
   // Strains of 1e-14, for which the rotating frames are linear to rounding.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
   TestRun run(
-      mesh, two_blocks(),
+      make_stack(2, 2), two_blocks(),
       { motion("base", "bottom", "0", "0"),
         traction("pull", "top", "1e-4 * sin(500*t)", "2e-4 * cos(700*t)"),
         gravity("0", "-1e-8") });
@@ -64,8 +62,7 @@ TEST(ExplicitSolver, EnergyBalanceOfAnElasticModel)
 // that may yield, and deform, keep the bound.
 TEST(ExplicitSolver, TakesTheStepOfTheAssembledStiffness)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 6, 4);
+  BlockMesh<2> mesh              = make_stack(6, 4);
   const auto critical_and_growth = [&](const bool assembled, const double share)
   {
     TestRun run(mesh, two_blocks(),
@@ -119,9 +116,7 @@ TEST(ExplicitSolver, TakesTheStepOfTheAssembledStiffness)
 
 TEST(ExplicitSolver, KineticEnergySlowsTheLoadsDown)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
-  TestRun run(mesh, two_blocks(),
+  TestRun run(make_stack(2, 2), two_blocks(),
               { motion("base", "bottom", "0", "0"),
                 motion("pull", "top", "", "20"),
                 traction("push", "sides", "1e3 * t", "") });
@@ -160,9 +155,7 @@ TEST(ExplicitSolver, KineticEnergySlowsTheLoadsDown)
 TEST(ExplicitSolver, TotalTimeGoesOnAfterLoadsWereSlowedDown)
 {
   // A gravity of T goes on where it was, however long the stage before took.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
-  TestRun run(mesh, two_blocks(), { gravity("0", "-1e3*T") });
+  TestRun run(make_stack(1, 1), two_blocks(), { gravity("0", "-1e3*T") });
   StageParameters slow = stage_with({ "gravity" });
   slow.kinetic_limit   = 1e-3;
   run.begin(slow, 0.5);
@@ -186,9 +179,7 @@ TEST(ExplicitSolver, TotalTimeGoesOnAfterLoadsWereSlowedDown)
 
 TEST(ExplicitSolver, EnergyBalanceWhenTheTimeStepChanges)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
-  TestRun run(mesh, two_blocks(),
+  TestRun run(make_stack(2, 2), two_blocks(),
               { motion("base", "bottom", "0", "0"),
                 traction("pull", "top", "1e-4 * sin(500*T)", "2e-4") });
   const StageParameters stage     = stage_with({ "base", "pull" });
@@ -222,8 +213,7 @@ namespace
       vertex[1] = vertex[1] == 0. ? 0. : vertex[1] - 1. + height;
     add_curve(data, "bottom", 0., 0., 1., 0.);
     add_curve(data, "joint", 0., height, 1., height);
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
+    BlockMesh<2> mesh            = split_into_blocks(data, {});
     ModelParameters parameters   = two_blocks(stiffness, stiffness);
     parameters.joints[0].damping = { 1., 1. };
     parameters.materials         = { plate, material("upper") };
@@ -267,8 +257,7 @@ TEST(ExplicitSolver, DashpotsOnALightPlatenThatAForceMovesAreStable)
 TEST(ExplicitSolver, EnergyIsWhatTheFormulasSay)
 {
   // The upper block pulled off by rigid platens: only the joint stores.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh  = make_stack(2, 1);
   const double speed = 1e-3, kn = 2e10;
   TestRun run(
       mesh, two_blocks(kn),
@@ -296,8 +285,7 @@ TEST(ExplicitSolver, EnergyIsWhatTheFormulasSay)
 TEST(ExplicitSolver, AccountsBalanceWithAnyDamping)
 {
   // Driven at the base, thrown, loaded on top; strains as small as above.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   for (const DampingType damping :
        { DampingType::none, DampingType::local, DampingType::adaptive,
          DampingType::rayleigh })
@@ -323,8 +311,7 @@ TEST(ExplicitSolver, AccountsBalanceWithPlatens)
 {
   // Positions of a platen's nodes are rounded to 1e-16 m, so the strains are
   // larger here: 1e-7, and so is what is left of the rotating frames.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   for (const DampingType damping :
        { DampingType::none, DampingType::local, DampingType::rayleigh })
   {
@@ -347,8 +334,7 @@ TEST(ExplicitSolver, AccountsBalanceWithPlatens)
 TEST(ExplicitSolver, AccountsBalanceWhereBoundariesMeet)
 {
   // Corner nodes belong to two loads; their work must be booked once.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   const std::vector<std::pair<LoadParameters, LoadParameters>> pairs
       = { { motion("a", "bottom", "1e-11", ""), motion("b", "sides", "", "0") },
           { motion("a", "bottom", "1e-11", "0"),
@@ -367,9 +353,7 @@ TEST(ExplicitSolver, AccountsBalanceWhereBoundariesMeet)
 
 TEST(ExplicitSolver, PrescribedVelocity)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
-  TestRun run(mesh, two_blocks(),
+  TestRun run(make_stack(2, 1), two_blocks(),
               { motion("base", "bottom", "0.02", "-0.01*t"),
                 motion("pull", "top", "", "0.03") });
   run.begin(stage_with({ "base", "pull" }));
@@ -394,11 +378,9 @@ TEST(ExplicitSolver, PrescribedVelocity)
 
 TEST(ExplicitSolver, PrescribedDisplacementCountsFromTheStage)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
   auto base = load("base", LoadType::prescribed_motion, "bottom", displacement,
                    "1e-3*t", "2e-4*sin(100*t)");
-  TestRun run(mesh, two_blocks(), { base });
+  TestRun run(make_stack(1, 1), two_blocks(), { base });
   const StageParameters stage = stage_with({ "base" });
   run.begin(stage);
   run.step(40);
@@ -422,10 +404,8 @@ TEST(ExplicitSolver, PrescribedDisplacementCountsFromTheStage)
 TEST(ExplicitSolver, ReactionInTheStaticLimit)
 {
   // Two blocks and a joint in a row: u / F = 2 L / (E A) + 1 / (kn A).
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
   const double u = 1e-9, L = 2., A = 2. * 0.5, E = 1e10, kn = 2e10, nu = 0.2;
-  TestRun run(mesh, two_blocks(kn),
+  TestRun run(make_stack(2, 2), two_blocks(kn),
               { motion("base", "bottom", "", "0"),
                 load("pull", LoadType::prescribed_motion, "top", displacement,
                      "", "1e-9 * min(1, 1e3 * t)") });
@@ -454,9 +434,7 @@ TEST(ExplicitSolver, ReactionInTheStaticLimit)
 TEST(ExplicitSolver, UnbalancedRatioOfTheFirstStep)
 {
   // Nothing resists yet: all that is applied is unbalanced.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
-  TestRun run(mesh, two_blocks(), { gravity("0", "-10") });
+  TestRun run(make_stack(1, 1), two_blocks(), { gravity("0", "-10") });
   run.begin(stage_with({ "gravity" }));
   run.step(1, true);
   EXPECT_DOUBLE_EQ(run.state.unbalanced_ratio, 1.);
@@ -464,8 +442,7 @@ TEST(ExplicitSolver, UnbalancedRatioOfTheFirstStep)
 
 TEST(ExplicitSolver, PlatenUnderAForce)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh  = make_stack(2, 2);
   const double force = 7e3, acceleration = force / mass_of_block(2, 2);
   TestRun run(mesh, two_blocks(),
               { platen("beam", "upper", component(given_force, "7e3"), {},
@@ -491,8 +468,7 @@ TEST(ExplicitSolver, PlatenUnderAForce)
 
 TEST(ExplicitSolver, PlatenUnderAMoment)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 1);
+  BlockMesh<2> mesh = make_stack(3, 1);
   TestRun run(
       mesh, two_blocks(),
       { platen("beam", "upper", {}, {}, component(given_force, "5e3")) });
@@ -523,8 +499,7 @@ TEST(ExplicitSolver, PlatenUnderAMoment)
 
 TEST(ExplicitSolver, PlatenTurnsItsBlockAsARigidBody)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh          = make_stack(2, 1);
   ModelParameters parameters = two_blocks(1., 1.);
   TestRun run(
       mesh, parameters,
@@ -550,12 +525,10 @@ TEST(ExplicitSolver, PlatenTurnsItsBlockAsARigidBody)
 
 TEST(ExplicitSolver, PlatenKeepsItsDisplacementThroughStages)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
   const std::vector<LoadParameters> loads
       = { platen("beam", "upper", component(velocity, "0.1"),
                  component(displacement, "1e-3*t"), component(velocity, "0")) };
-  TestRun run(mesh, two_blocks(), loads);
+  TestRun run(make_stack(1, 1), two_blocks(), loads);
   const StageParameters with = stage_with({ "beam" }), without = stage_with({});
   run.begin(with);
   const double dt = run.dt();
@@ -589,9 +562,7 @@ TEST(ExplicitSolver, PlatenKeepsItsDisplacementThroughStages)
 TEST(ExplicitSolver, FreeFall)
 {
   // At rest at time zero: g t^2 / 2 at every step, without strain.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
-  TestRun run(mesh, two_blocks(), { gravity("1.5", "-9.81") });
+  TestRun run(make_stack(2, 1), two_blocks(), { gravity("1.5", "-9.81") });
   run.begin(stage_with({ "gravity" }));
   const unsigned int n = 1000;
   for (unsigned int i = 0; i < n; ++i)
@@ -615,8 +586,7 @@ TEST(ExplicitSolver, FreeFall)
 
 TEST(ExplicitSolver, TractionActsOnTributaryAreas)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 1);
+  BlockMesh<2> mesh = make_stack(3, 1);
   TestRun run(mesh, two_blocks(),
               { traction("push", "top", "2e3*(t + 1)", "-5e3"),
                 traction("side", "sides", "7e3", "") });
@@ -639,9 +609,7 @@ TEST(ExplicitSolver, TractionActsOnTributaryAreas)
 TEST(ExplicitSolver, ChangeOfTimeStepKeepsTheParabola)
 {
   // With steps of different length the velocity lives at the midpoints.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
-  TestRun run(mesh, two_blocks(), { gravity("0", "-10") });
+  TestRun run(make_stack(1, 1), two_blocks(), { gravity("0", "-10") });
   const StageParameters stage = stage_with({ "gravity" });
   run.begin(stage);
   run.step(1);
@@ -663,8 +631,7 @@ TEST(ExplicitSolver, GravityOfStaticStagesComesQuietly)
   // that is there at once, and hardly farther under one that grows.
   for (const bool sudden : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 1, 8);
+    BlockMesh<2> mesh     = make_stack(1, 8);
     LoadParameters weight = gravity("0", "-10");
     if (sudden)
       weight.ramp_duration = 0.;
@@ -702,8 +669,7 @@ TEST(ExplicitSolver, ViscousBoundaryAbsorbs)
 {
   // A column thrown down on its viscous base: the wave up and down again takes
   // 2 H / c, then all of 1/2 m v^2 has gone through the base.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 30);
+  BlockMesh<2> mesh          = make_stack(1, 30);
   ModelParameters parameters = two_blocks(1e14, 1e14);
   parameters.plane           = PlaneAssumption::plane_strain;
   TestRun run(
@@ -747,8 +713,8 @@ TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)
   // The same model turned by 30 degrees moves in the same way, turned.
   const double c = std::cos(30. * degree), s = std::sin(30. * degree);
   BlockMesh<2> flat, turned;
-  make_stack(flat, 2, 2);
-  make_stack(turned, 2, 2);
+  flat   = make_stack(2, 2);
+  turned = make_stack(2, 2);
   for (auto &p : turned.vertices)
     p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
   auto base = load("base", LoadType::viscous_boundary, "bottom", velocity,
@@ -784,8 +750,7 @@ TEST(ExplicitSolver, ViscousBoundaryTakesOverReactions)
 {
   for (const bool pushed : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 2, 2);
+    BlockMesh<2> mesh                = make_stack(2, 2);
     const ModelParameters parameters = two_blocks(1e11, 1e11);
     TestRun run(mesh, parameters,
                 { gravity("0", "-10"), motion("base", "bottom", "0", "0"),
@@ -817,11 +782,9 @@ TEST(ExplicitSolver, ViscousBoundaryTakesOverReactions)
 TEST(ExplicitSolver, IncidentWaveDoublesAtTheFreeSurface)
 {
   // A steady incident shear velocity v: the column ends up moving at 2 v.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 20);
   auto base = load("base", LoadType::viscous_boundary, "bottom", velocity, "0",
                    "1e-9");
-  TestRun run(mesh, two_blocks(1e14, 1e14),
+  TestRun run(make_stack(1, 20), two_blocks(1e14, 1e14),
               { base, motion("rollers", "sides", "", "0") });
   run.begin(stage_with({ "base", "rollers" }));
   const double c = std::sqrt(1e10 / 2.4 / 2500.);
@@ -838,8 +801,7 @@ TEST(ExplicitSolver, IncidentWaveDoublesAtTheFreeSurface)
 
 TEST(ExplicitSolver, LoadsThatComeLateAreStillToChange)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh  = make_stack(3, 2);
   const auto changes = [&](const std::string &function, const double load_time)
   {
     TestRun run(mesh, two_blocks(),
@@ -863,8 +825,7 @@ TEST(ExplicitSolver, LoadsThatComeLateAreStillToChange)
 TEST(ExplicitSolver, SlipByTheEdgesThatTouch)
 {
   // Edges are 1 m; slip counts where the joint bears pressure.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   TestRun run(mesh, two_blocks(), {});
   run.begin(stage_with({}));
   EXPECT_EQ(largest_slip_share(run.model, run.state), 0.);
@@ -880,8 +841,7 @@ TEST(ExplicitSolver, TurnAndDistanceOfBlocksThatShareAJoint)
 {
   // The upper block turns about its lower left corner, by displacements that
   // are linear in the angle, and everything is displaced.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   TestRun run(mesh, two_blocks(), {});
   run.begin(stage_with({}));
   constexpr double turn = 0.3, opening = 0.01;
@@ -911,9 +871,7 @@ TEST(ExplicitSolver, TurnAndDistanceOfBlocksThatShareAJoint)
 
 TEST(ExplicitSolver, RefusesFreeBodiesInAStaticStage)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
-  TestRun run(mesh, two_blocks(),
+  TestRun run(make_stack(1, 1), two_blocks(),
               { motion("roller", "bottom", "", "0"),
                 motion("fixed", "bottom", "0", "0"),
                 platen("held", "upper", component(velocity, "0"),
@@ -945,8 +903,7 @@ TEST(ExplicitSolver, NamesTheBlockThatNothingHolds)
     add_grid(data, 1, 1, "rock", x, 0.);
     add_curve(data, x == 0. ? "bottom" : "edge", x, 0., x + 1., 0.);
   }
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   ASSERT_EQ(mesh.n_blocks(), 2U);
   ModelParameters parameters;
   parameters.materials = { material("rock") };
@@ -966,8 +923,7 @@ TEST(ExplicitSolver, NamesTheBlockThatNothingHolds)
 
 TEST(ExplicitSolver, RefusesUnknownLoads)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
+  BlockMesh<2> mesh = make_stack(1, 1);
   TestRun run(mesh, two_blocks(), { gravity("0", "0") });
   expect_input_error(
       [&] {
@@ -988,8 +944,7 @@ TEST(ExplicitSolver, RefusesUnknownLoads)
 
 TEST(ExplicitSolver, StopsWhereTheMotionIsNoNumber)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
+  BlockMesh<2> mesh = make_stack(1, 1);
   const auto stop = [&](const std::string &pull, const std::string &before_time)
   {
     TestRun run(mesh, two_blocks(), { traction("push", "top", "0", pull) });
@@ -1025,8 +980,7 @@ TEST(ExplicitSolver, MassScalingRaisesTheCriticalStep)
   // masses grow with the square of the step.
   MeshData<2> data;
   add_grid(data, 1, 1, "rock");
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   ModelParameters parameters;
   parameters.materials = { material("rock") };
   TestRun run(mesh, parameters, { gravity("0", "-10") });
@@ -1061,9 +1015,7 @@ TEST(ExplicitSolver, MassScalingRaisesTheCriticalStep)
 TEST(ExplicitSolver, MassScalingBehindAStiffJoint)
 {
   // Only nodes that need mass get it.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 3);
-  TestRun run(mesh, two_blocks(1e13, 1e13), {});
+  TestRun run(make_stack(2, 3), two_blocks(1e13, 1e13), {});
   StageParameters stage = stage_with({});
   run.begin(stage);
   const double own       = run.solver.critical_step().length;
@@ -1092,9 +1044,7 @@ TEST(ExplicitSolver, MassScalingBehindAStiffJoint)
 
 TEST(ExplicitSolver, StiffnessDampingLowersTheCriticalStep)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(1, 1), two_blocks(), {});
   StageParameters stage = stage_with({}, DampingType::rayleigh);
   run.begin(stage);
   const double undamped       = run.solver.critical_step().length;
@@ -1107,8 +1057,7 @@ TEST(ExplicitSolver, StiffnessDampingLowersTheCriticalStep)
 
 TEST(ExplicitSolver, ResumedStageGoesOnAsIfNothingHadHappened)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh = make_stack(2, 1);
   const std::vector<LoadParameters> loads
       = { motion("base", "bottom", "0", "1e-3*sin(200*t)"),
           platen("beam", "upper", component(given_force, "1e3"),

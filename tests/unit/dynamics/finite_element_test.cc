@@ -52,8 +52,7 @@ namespace quoin
 
   TEST(FiniteElement, SameForcesAsLinearSimplexElementsOfTheLibrary)
   {
-    BlockMesh<2> mesh;
-    split_into_blocks(square(5), SplitOptions(), mesh);
+    BlockMesh<2> mesh = split_into_blocks(square(5), SplitOptions());
     std::vector<dealii::CellData<2>> triangles(mesh.n_cells(),
                                                dealii::CellData<2>(3));
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)

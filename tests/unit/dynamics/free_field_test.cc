@@ -19,8 +19,7 @@ namespace
    * A lower block of nx x ny unit squares and an upper one with a joint
    * between, and the curves "bottom", "left", "right", "joint".
    */
-  void make_sides(BlockMesh<2> &mesh, const unsigned int nx,
-                  const unsigned int ny)
+  BlockMesh<2> make_sides(const unsigned int nx, const unsigned int ny)
   {
     MeshData<2> data;
     for (const unsigned int i : { 0U, 1U })
@@ -33,7 +32,7 @@ namespace
       if (i == 1)
         add_curve(data, "top", 0., y1, nx, y1);
     }
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   LoadParameters free_field(const std::string &name,
@@ -87,8 +86,7 @@ namespace
                       const std::vector<std::string> &words,
                       const ModelParameters &parameters = plane_strain())
   {
-    BlockMesh<2> mesh;
-    make_sides(mesh, 2, 2);
+    BlockMesh<2> mesh = make_sides(2, 2);
     const std::string message
         = message_of<InputError>([&] { TestRun run(mesh, parameters, loads); });
     for (const std::string &word : words)
@@ -99,8 +97,7 @@ namespace
 TEST(FreeField, VerticalWavesPassAsIfTheModelWereEndless)
 {
   // Both kinds at once; the corners have other lumped masses than the column.
-  BlockMesh<2> mesh;
-  make_sides(mesh, 6, 10);
+  BlockMesh<2> mesh       = make_sides(6, 10);
   const std::string pulse = "*(1-cos(2*pi*t/0.012))*if(t<0.012,1,0)";
   TestRun run(mesh, plane_strain(),
               { incident("1e-9" + pulse, "1e-9" + pulse),
@@ -127,8 +124,7 @@ TEST(FreeField, VerticalWavesPassAsIfTheModelWereEndless)
 
 TEST(FreeField, StandsOnTheMaterialsOfItsStage)
 {
-  BlockMesh<2> mesh;
-  make_sides(mesh, 6, 10);
+  BlockMesh<2> mesh       = make_sides(6, 10);
   const std::string pulse = "*(1-cos(2*pi*t/0.012))*if(t<0.012,1,0)";
   TestRun run(mesh, plane_strain(),
               { incident("1e-9" + pulse, "1e-9" + pulse),
@@ -161,8 +157,7 @@ TEST(FreeField, StandsOnTheMaterialsOfItsStage)
 
 TEST(FreeField, RefusesMaterialsThatItCannotFollow)
 {
-  BlockMesh<2> mesh;
-  make_sides(mesh, 2, 2);
+  BlockMesh<2> mesh           = make_sides(2, 2);
   const StageParameters first = named_stage("first", { "base", "left" });
   const StageParameters rest  = named_stage("rest", { "base" });
   const StageParameters last  = named_stage("last", { "base", "left" });
@@ -189,14 +184,12 @@ TEST(FreeField, BalancesItsEnergy)
 {
   for (const bool prescribed : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_sides(mesh, 3, 4);
     const LoadParameters base
         = prescribed
               ? motion("base", "bottom", "1e-9*sin(800*t)", "1e-9*sin(500*t)")
               : incident("1e-9*sin(500*t)", "1e-9*sin(800*t)");
     TestRun run(
-        mesh, plane_strain(),
+        make_sides(3, 4), plane_strain(),
         { base, free_field("left", "left"), free_field("right", "right") });
     StageParameters stage       = stage_with({ "base", "left", "right" });
     stage.damping               = DampingType::rayleigh;
@@ -217,8 +210,7 @@ TEST(FreeField, BalancesItsEnergy)
 TEST(FreeField, HoldsTheStressThatItFinds)
 {
   // Stress in equilibrium with gravity, sides without any other support.
-  BlockMesh<2> mesh;
-  make_sides(mesh, 3, 4);
+  BlockMesh<2> mesh          = make_sides(3, 4);
   ModelParameters parameters = plane_strain();
   LoadParameters stress;
   stress.name                 = "in situ";
@@ -239,8 +231,7 @@ TEST(FreeField, HoldsTheStressThatItFinds)
 
 TEST(FreeField, TheColumnIsLayered)
 {
-  BlockMesh<2> mesh;
-  make_sides(mesh, 2, 2);
+  BlockMesh<2> mesh          = make_sides(2, 2);
   ModelParameters parameters = plane_strain();
   parameters.materials
       = { material("lower", 2500., 1e10), material("upper", 2000., 2e9) };
@@ -269,13 +260,12 @@ TEST(FreeField, RefusesWhatIsNoSide)
   expect_refused({ incident("0", "0"), free_field("side", "left") },
                  { "'Boundary'", "rigid", "(0, 4)" }, parameters);
 
-  BlockMesh<2> mesh;
   MeshData<2> data;
   add_grid(data, 2, 3, "lower");
   add_curve(data, "bottom", 0., 0., 2., 0.);
   add_curve(data, "left", 0., 0., 0., 1.);
   add_curve(data, "left", 0., 2., 0., 3.);
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh    = split_into_blocks(data, {});
   parameters.materials = { material("lower") };
   parameters.joints.clear();
   const std::string message = message_of<InputError>(
@@ -305,9 +295,7 @@ TEST(FreeField, RefusesWhatIsNoBase)
         free_field("side", "left") },
       { "'Base'", "not horizontal" });
 
-  BlockMesh<2> mesh;
-  make_sides(mesh, 2, 2);
-  TestRun run(mesh, plane_strain(),
+  TestRun run(make_sides(2, 2), plane_strain(),
               { incident("0", "0"), free_field("side", "left") });
   const std::string message
       = message_of<InputError>([&] { run.begin(stage_with({ "side" })); });
@@ -316,8 +304,7 @@ TEST(FreeField, RefusesWhatIsNoBase)
 
 TEST(ViscousBoundary, BalancesItsEnergyBesideRollersOnAnInclinedBase)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   for (auto &vertex : mesh.vertices)
     vertex[1] += 0.5 * vertex[0];
   TestRun run(mesh, plane_strain(),
@@ -340,8 +327,7 @@ TEST(ViscousBoundary, OfAnotherMaterialBeyond)
 {
   // Thrown down at v on ground of three times its impedance, the base slows
   // down to v / 4 until a wave comes back.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 30);
+  BlockMesh<2> mesh          = make_stack(1, 30);
   ModelParameters parameters = plane_strain();
   MaterialParameters hard    = material("hard", 2500., 9e10);
   hard.groups.clear();
@@ -376,10 +362,8 @@ TEST(ViscousBoundary, HasTheMaterialsOfItsStage)
 {
   // Thrown down at v on ground of its own impedance, the base slows down to
   // v / 2 until a wave comes back.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 30);
   TestRun run(
-      mesh, plane_strain(),
+      make_stack(1, 30), plane_strain(),
       { viscous("base", "bottom"), motion("rollers", "sides", "0", "") });
   const StageParameters first = named_stage("first", { "base", "rollers" });
   run.begin(first);
@@ -401,8 +385,7 @@ TEST(InitialMotion, BringsItsEnergyAndIsOfSecondOrder)
   double result[3];
   for (const unsigned int k : { 0U, 1U, 2U })
   {
-    BlockMesh<2> mesh;
-    make_sides(mesh, 4, 4);
+    BlockMesh<2> mesh = make_sides(4, 4);
     TestRun run(mesh, two_blocks(), { motion("base", "bottom", "0", "0") });
     for (unsigned int n = 0; n < run.state.nodes.size(); ++n)
     {

@@ -35,9 +35,7 @@ namespace
 
   std::string refusal(const LoadParameters &load, const NamedBlock &block)
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
-    TestRun run(mesh, stack_of(false), { load });
+    TestRun run(make_stack(3, 2), stack_of(false), { load });
     std::vector<NamedBlock> blocks = { block };
     find_named_blocks(run.nodes, blocks);
     return message_of<InputError>(
@@ -53,9 +51,7 @@ TEST(InitialBlockMotion, IsThatOfARigidBodyWithItsEnergy)
 {
   for (const bool rigid : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
-    TestRun run(mesh, stack_of(rigid), {});
+    TestRun run(make_stack(3, 2), stack_of(rigid), {});
     std::vector<NamedBlock> blocks = { upper(0.3, -0.2, 2.) };
     find_named_blocks(run.nodes, blocks);
     start_blocks(blocks, run.model, run.solver, stage_with({}), run.state);
@@ -107,9 +103,7 @@ TEST(InitialBlockMotion, IsNoneOfBlocksThatAreHeldOrAbsent)
           .find("'press' holds or drives in the stage 'stage'"),
       std::string::npos);
 
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, stack_of(false), {});
+  TestRun run(make_stack(3, 2), stack_of(false), {});
   std::vector<NamedBlock> blocks = { upper(1., 0., 0.) };
   find_named_blocks(run.nodes, blocks);
   run.state.block_marks     = { block_mark::present, block_mark::absent };
@@ -123,9 +117,7 @@ TEST(InitialBlockMotion, IsNoneOfBlocksThatAreHeldOrAbsent)
 
 TEST(InitialMotion, IsNoneOfAbsentBlocks)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, stack_of(false), {});
+  TestRun run(make_stack(3, 2), stack_of(false), {});
   run.state.block_marks = { block_mark::present, block_mark::absent };
   InitialMotion motion;
   for (const std::string value : { "2", "x" })

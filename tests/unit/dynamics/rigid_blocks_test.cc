@@ -40,12 +40,12 @@ namespace
   }
 
   /** A rectangle of nx x ny unit squares, "block", by itself. */
-  void make_rectangle(BlockMesh<2> &mesh, const unsigned int nx,
-                      const unsigned int ny, const double x = 0.)
+  BlockMesh<2> make_rectangle(const unsigned int nx, const unsigned int ny,
+                              const double x = 0.)
   {
     MeshData<2> data;
     add_grid(data, nx, ny, "block", x, 0.);
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   ModelParameters one_rigid_block(const double density = 2000.)
@@ -57,7 +57,7 @@ namespace
   }
 
   /** Three blocks of nx x 1, "lower", "middle", "upper", with a bed "joint". */
-  void make_three(BlockMesh<2> &mesh, const unsigned int nx)
+  BlockMesh<2> make_three(const unsigned int nx)
   {
     MeshData<2> data;
     const char *names[] = { "lower", "middle", "upper" };
@@ -68,7 +68,7 @@ namespace
       if (i == 2)
         add_curve(data, "top", 0., 3., nx, 3.);
     }
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   ModelParameters three_blocks(const double kn, const double ks)
@@ -209,8 +209,7 @@ TEST(RigidBlocks, MassAndInertiaOfARectangle)
   {
     MeshData<2> data;
     add_grid(data, 2 * n, n, "block", 1e5, -1e5, 1.5 / n);
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
+    BlockMesh<2> mesh = split_into_blocks(data, {});
     const TestNodes nodes(mesh, one_rigid_block().materials);
     const Model<2> model(nodes, one_rigid_block());
     ASSERT_EQ(model.rigid_blocks().n_blocks(), 1U);
@@ -235,8 +234,7 @@ TEST(RigidBlocks, MassAndInertiaOfAnAngle)
   data.cells.resize(6);
   data.cell_group.resize(6);
   data.vertices.pop_back();
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   const TestNodes nodes(mesh, one_rigid_block().materials);
   const Model<2> model(nodes, one_rigid_block());
   const RigidBlocks::Block &block = model.rigid_blocks().block(0);
@@ -252,9 +250,7 @@ TEST(RigidBlocks, MassAndInertiaOfAnAngle)
 
 TEST(RigidBlocks, ThrownAndSpunFreely)
 {
-  BlockMesh<2> mesh;
-  make_rectangle(mesh, 2, 1);
-  TestRun run(mesh, one_rigid_block(), {});
+  TestRun run(make_rectangle(2, 1), one_rigid_block(), {});
   run.solver.begin_stage(stage_with({}), nullptr, run.state);
   EXPECT_FALSE(std::isfinite(run.solver.critical_step().length));
   const double dt = 1e-3;
@@ -292,9 +288,8 @@ TEST(RigidBlocks, ThrownAndSpunFreely)
 
 TEST(RigidBlocks, FallOfASpinningBlock)
 {
-  BlockMesh<2> mesh;
-  make_rectangle(mesh, 3, 1);
-  TestRun run(mesh, one_rigid_block(), { gravity("1", "-9.81") });
+  TestRun run(make_rectangle(3, 1), one_rigid_block(),
+              { gravity("1", "-9.81") });
   run.solver.begin_stage(stage_with({ "gravity" }), nullptr, run.state);
   run.solver.set_time_step(1e-3);
   run.state.get<RigidBlockStates>()[0].velocity[2] = 7.;
@@ -308,8 +303,7 @@ TEST(RigidBlocks, FallOfASpinningBlock)
 TEST(RigidBlocks, BouncesAndRocksOnElasticJoints)
 {
   const double kn = 3e9, ks = 1e9, thickness = 0.5;
-  BlockMesh<2> mesh;
-  make_three(mesh, 2);
+  BlockMesh<2> mesh                = make_three(2);
   const ModelParameters parameters = three_blocks(kn, ks);
   const std::vector<LoadParameters> loads
       = { hold("below", "lower"), hold("above", "upper") };
@@ -351,8 +345,7 @@ TEST(RigidBlocks, BouncesAndRocksOnElasticJoints)
 TEST(RigidBlocks, AccountsBalanceWithAnyDamping)
 {
   // Rigid and deformable blocks; motions so small that joints are linear.
-  BlockMesh<2> mesh;
-  make_three(mesh, 2);
+  BlockMesh<2> mesh          = make_three(2);
   ModelParameters parameters = three_blocks(2e10, 1e10);
   parameters.materials = { material("lower"), rigid("middle"), rigid("upper") };
   order(mesh, parameters);
@@ -392,8 +385,7 @@ TEST(RigidBlocks, AccountsBalanceOfALoadedPlaten)
   // Larger motions, because those of a platen are rounded to 1e-16 m; what is
   // left is proportional to them: the forces of joints that turn are not
   // linear, so that the trapezoidal rule is off by the third order of a step.
-  BlockMesh<2> mesh;
-  make_three(mesh, 2);
+  BlockMesh<2> mesh = make_three(2);
   for (const DampingType damping : { DampingType::none, DampingType::local })
   {
     TestRun run(
@@ -412,8 +404,7 @@ TEST(RigidBlocks, ResidualOfALargeRotationIsSmall)
 {
   // Two blocks on soft joints, spun: the rest is what the turning frames of
   // the joints leave, and falls with the square of the step.
-  BlockMesh<2> mesh;
-  make_three(mesh, 2);
+  BlockMesh<2> mesh = make_three(2);
   double residual[2];
   for (const unsigned int k : { 0U, 1U })
   {
@@ -437,10 +428,8 @@ TEST(RigidBlocks, ResidualOfALargeRotationIsSmall)
 
 TEST(RigidBlocks, PlatenHasTheirInertia)
 {
-  BlockMesh<2> mesh;
-  make_rectangle(mesh, 3, 1);
   TestRun run(
-      mesh, one_rigid_block(),
+      make_rectangle(3, 1), one_rigid_block(),
       { platen("turn", "block", component(velocity, "0"),
                component(given_force, "100"), component(given_force, "50")) });
   run.solver.begin_stage(stage_with({ "turn" }), nullptr, run.state);
@@ -458,15 +447,13 @@ TEST(RigidBlocks, PlatenHasTheirInertia)
 TEST(RigidBlocks, PlatenTakesOverAndReleases)
 {
   // Driven round by 3.5 turns, released, taken over by a free platen.
-  BlockMesh<2> mesh;
-  make_rectangle(mesh, 3, 1, 10.);
   const LoadParameters spin
       = platen("spin", "block", component(velocity, "2"),
                component(velocity, "-1"), component(velocity, "1260"));
   const LoadParameters free
       = platen("free", "block", component(velocity, ""),
                component(velocity, ""), component(velocity, ""));
-  TestRun run(mesh, one_rigid_block(), { spin, free });
+  TestRun run(make_rectangle(3, 1, 10.), one_rigid_block(), { spin, free });
   const StageParameters driven   = stage_with({ "spin" }),
                         released = stage_with({}),
                         again    = stage_with({ "free" });
@@ -515,8 +502,7 @@ TEST(RigidBlocks, PlatenTakesOverAndReleases)
 TEST(RigidBlocks, PatchWithDeformableBlocks)
 {
   // Uniform compression passes through the rigid block.
-  BlockMesh<2> mesh;
-  make_three(mesh, 2);
+  BlockMesh<2> mesh          = make_three(2);
   ModelParameters parameters = three_blocks(2e10, 1e10);
   parameters.materials = { material("lower", 2500., 1e10, 0.), rigid("middle"),
                            material("upper", 2500., 1e10, 0.) };
@@ -553,8 +539,7 @@ TEST(RigidBlocks, BoundOfTheFrequency)
     for (const auto &[kn, ks] :
          std::vector<std::pair<double, double>>{ { 2e10, 1e10 }, { 1e9, 5e9 } })
     {
-      BlockMesh<2> mesh;
-      make_stack(mesh, 4, 2);
+      BlockMesh<2> mesh          = make_stack(4, 2);
       ModelParameters parameters = two_blocks(kn, ks);
       parameters.materials = { rigid("lower", base_density), rigid("upper") };
       const TestNodes nodes(mesh, parameters.materials);
@@ -584,8 +569,7 @@ TEST(RigidBlocks, BoundOfManyBlocksOnOne)
     if (i > 0)
       add_curve(data, "head", i, 0., i, 1.);
   }
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   ModelParameters parameters;
   parameters.materials = { rigid("base", 1e5), rigid("block") };
   parameters.joints
@@ -601,8 +585,7 @@ TEST(RigidBlocks, BoundOfManyBlocksOnOne)
 
 TEST(RigidBlocks, RunsAtTheBoundStayBounded)
 {
-  BlockMesh<2> mesh;
-  make_three(mesh, 3);
+  BlockMesh<2> mesh = make_three(3);
   for (const bool mixed : { false, true })
   {
     ModelParameters parameters = three_blocks(2e10, 1e10);
@@ -623,8 +606,7 @@ TEST(RigidBlocks, RunsAtTheBoundStayBounded)
 
 TEST(RigidBlocks, BoundOfContactsAnywhere)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh                     = make_stack(2, 1);
   ModelParameters parameters            = two_blocks(2e10, 3e10);
   parameters.materials                  = { rigid("lower"), rigid("upper") };
   parameters.large_displacements        = true;
@@ -643,8 +625,7 @@ TEST(RigidBlocks, BoundOfContactsAnywhere)
 
 TEST(RigidBlocks, MassScalingReachesTheStep)
 {
-  BlockMesh<2> mesh;
-  make_three(mesh, 2);
+  BlockMesh<2> mesh          = make_three(2);
   ModelParameters parameters = three_blocks(2e10, 1e10);
   parameters.materials[0]    = material("lower");
   order(mesh, parameters);
@@ -671,8 +652,7 @@ TEST(RigidBlocks, MassScalingReachesTheStep)
 
 TEST(RigidBlocks, ResumesInMidStage)
 {
-  BlockMesh<2> mesh;
-  make_three(mesh, 2);
+  BlockMesh<2> mesh          = make_three(2);
   ModelParameters parameters = three_blocks(2e10, 1e10);
   parameters.materials[0]    = material("lower");
   order(mesh, parameters);
@@ -705,8 +685,7 @@ TEST(RigidBlocks, ResumesInMidStage)
 
 TEST(RigidBlocks, RefusesWhatWouldDeformThem)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh          = make_stack(2, 2);
   ModelParameters parameters = two_blocks();
   parameters.materials       = { rigid("lower"), rigid("upper") };
   TestRun run(
@@ -730,8 +709,7 @@ TEST(RigidBlocks, RefusesABlockThatIsRigidInPart)
   add_grid(data, 2, 1, "stone");
   data.group_names.push_back("mortar");
   data.cell_group[3] = 1;
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh  = split_into_blocks(data, {});
   ModelParameters parameters;
   parameters.materials      = { rigid("stone"), material("mortar") };
   const std::string message = message_of<InputError>(
@@ -746,8 +724,7 @@ TEST(RigidBlocks, RefusesABlockThatIsRigidInPart)
 TEST(RigidBlocks, StepWithWaterKnowsTheirInertia)
 {
   // Flat blocks that rock on the water between them.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
+  BlockMesh<2> mesh = make_stack(1, 1);
   for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
     mesh.vertices[v][0] *= 4.;
   ModelParameters parameters = two_blocks();

@@ -104,9 +104,8 @@ TEST(InterfaceTransfer, means_of_quadratic_motion)
   MeshData<2> data;
   add_grid(data, 3, 1, "rock", 0., -1.);
   add_curve(data, "top", 0., 0., 3., 0.);
-  data.quadratic = true;
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  data.quadratic    = true;
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   std::vector<bool> wanted;
   for (const std::string &name : mesh.face_names)
     wanted.push_back(name == "top");

@@ -22,7 +22,7 @@ namespace
   /** Two blocks: a platen, which drives the lower one, and a rigid block. */
   struct Bodies
   {
-    BlockMesh<2> mesh;
+    BlockMesh<2> mesh = make_stack(3, 1);
     std::unique_ptr<TestNodes> nodes;
     std::unique_ptr<Model<2>> model;
     std::unique_ptr<Platen> beam;
@@ -32,7 +32,6 @@ namespace
     Bodies(const LoadComponent &x, const LoadComponent &y,
            const LoadComponent &rotation)
     {
-      make_stack(mesh, 3, 1);
       ModelParameters parameters    = two_blocks();
       parameters.materials[1].rigid = true;
       nodes = std::make_unique<TestNodes>(mesh, parameters.materials);
@@ -238,8 +237,7 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
 
 TEST(DofMap, TheLastMotionOfANodePrevails)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh = make_stack(2, 1);
   const TestNodes nodes(mesh);
   const Model<2> model(nodes, two_blocks());
   State<2> state = model.initial_state();

@@ -48,7 +48,7 @@ namespace
    * Three blocks of 2 m x 2 m in a row, groups "a", "b" and "c", with the
    * joints "first" and "second" and the curves "left", "right" and "floor".
    */
-  void make_row(BlockMesh<2> &mesh, const Cut cut = Cut::plain)
+  BlockMesh<2> make_row(const Cut cut = Cut::plain)
   {
     const std::string groups[] = { "a", "b", "c" };
     const std::string curves[] = { "left", "first", "second" };
@@ -64,7 +64,7 @@ namespace
     if (cut == Cut::crossed)
       cross(data);
     data.quadratic = cut == Cut::quadratic;
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   ModelParameters three_blocks(const double poisson = 0.2)
@@ -97,12 +97,11 @@ namespace
       until 0.625 s. */
   struct Sliding
   {
-    BlockMesh<2> mesh;
+    BlockMesh<2> mesh = make_stack(2, 1);
     std::unique_ptr<ImplicitRun> run;
 
     explicit Sliding(const bool jumps)
     {
-      make_stack(mesh, 2, 1);
       ModelParameters parameters = two_blocks();
       CoulombLaw &law            = coulomb_law(parameters.joints[0]);
       law.peak = law.residual = { 0., 0.5, 0. };
@@ -136,8 +135,7 @@ namespace
 // pressure is free: the force is 5e5 N all the way.
 TEST(ImplicitSolver, FrictionBetweenPrescribedMotionsIsForceTimesSlip)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh          = make_stack(2, 1);
   ModelParameters parameters = two_blocks();
   CoulombLaw &law            = coulomb_law(parameters.joints[0]);
   law.peak = law.residual = { 0., 0.5, 0. };
@@ -168,12 +166,10 @@ TEST(ImplicitSolver, UniformStressIsExact)
 {
   for (const Cut cut : { Cut::plain, Cut::crossed, Cut::quadratic })
   {
-    BlockMesh<2> mesh;
-    make_row(mesh, cut);
     ImplicitParameters numbers;
     numbers.force_ratio = 1e-12;
     const double sx = 3e6, sy = 0.;
-    ImplicitRun run(mesh, three_blocks(),
+    ImplicitRun run(make_row(cut), three_blocks(),
                     { moved("left", "0", ""), moved("floor", "", "0"),
                       traction("pull", "right", "3e6*t", "") },
                     numbers);
@@ -205,14 +201,12 @@ TEST(ImplicitSolver, UniformStressIsExact)
 TEST(ImplicitSolver, IterationsConvergeQuadratically)
 {
   // A bar of three blocks bent by a third of a right angle in one step.
-  BlockMesh<2> mesh;
-  make_row(mesh);
   ImplicitParameters numbers;
   numbers.first_step = numbers.largest_step = 1.;
   numbers.force_ratio                       = 1e-13;
   numbers.line_search                       = false;
   ImplicitRun run(
-      mesh, three_blocks(),
+      make_row(), three_blocks(),
       { moved("left", "0", "0"), traction("push", "right", "", "1e8*t") },
       numbers);
   run.begin({ "left", "push" });
@@ -231,8 +225,7 @@ TEST(ImplicitSolver, IterationsOfATurningBlockConvergeQuadratically)
   add_grid(data, 2, 1, "upper", 0., 1.);
   add_curve(data, "joint", 0., 1., 2., 1.);
   add_curve(data, "half", 1., 2., 2., 2.);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh             = split_into_blocks(data, {});
   ModelParameters parameters    = two_blocks(2e5, 1e5);
   parameters.materials[1].rigid = true;
   ImplicitParameters numbers;
@@ -327,13 +320,11 @@ TEST(ImplicitSolver, AStepOfAJumpBeginsWithTheMotionOfTheLastOne)
 
 TEST(ImplicitSolver, StepsAreLongWhereTheMotionGoesOnAndShortWhereItTurns)
 {
-  BlockMesh<2> mesh;
-  make_row(mesh);
   ImplicitParameters numbers;
   numbers.first_step   = 0.01;
   numbers.largest_step = 0.2;
   ImplicitRun run(
-      mesh, three_blocks(),
+      make_row(), three_blocks(),
       { moved("left", "0", ""), moved("floor", "", "0"),
         traction("pull", "right", "3e6 * (t < 0.5 ? t : 1.1 - 1.2 * t)", "") },
       numbers);
@@ -355,9 +346,7 @@ TEST(ImplicitSolver, StepsAreLongWhereTheMotionGoesOnAndShortWhereItTurns)
 
 TEST(ImplicitSolver, ALoadThatJumpsAtTheStartRestsFromThereOn)
 {
-  BlockMesh<2> mesh;
-  make_row(mesh);
-  ImplicitRun run(mesh, three_blocks(),
+  ImplicitRun run(make_row(), three_blocks(),
                   { moved("left", "0", ""), moved("floor", "", "0"),
                     traction("pull", "right", "if(t > 0, 3e6, 0)", "") });
   StageParameters stage = stage_with({ "left", "floor", "pull" });
@@ -369,8 +358,7 @@ TEST(ImplicitSolver, ALoadThatJumpsAtTheStartRestsFromThereOn)
 
 TEST(ImplicitSolver, AGivenRotationResumedIsBitwiseTheSame)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh  = make_stack(2, 1);
   const auto at_rest = component(velocity, "0");
   const std::vector<LoadParameters> loads
       = { platen("held", "lower", at_rest, at_rest, at_rest),
@@ -390,9 +378,7 @@ TEST(ImplicitSolver, AGivenRotationResumedIsBitwiseTheSame)
 TEST(ImplicitSolver, ReactionOfTheFarField)
 {
   // Boundary elements below the stack, of the same rock, resist its turning.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 4, 1);
-  const TestNodes nodes(mesh);
+  const TestNodes nodes(make_stack(4, 1));
   Model<2> model(nodes, two_blocks());
   FarFieldDomain domain;
   domain.boundary.add_curve({ { 4., 0. }, { 2., 0. }, { 0., 0. } }, false);
@@ -430,8 +416,7 @@ TEST(ImplicitSolver, RigidBlockUnderAnEccentricLoad)
   add_grid(data, 2, 1, "upper", 0., 1.);
   add_curve(data, "joint", 0., 1., 2., 1.);
   add_curve(data, "half", 1., 2., 2., 2.);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh             = split_into_blocks(data, {});
   ModelParameters parameters    = two_blocks();
   parameters.materials[1].rigid = true;
   ImplicitParameters numbers;
@@ -455,11 +440,9 @@ TEST(ImplicitSolver, RigidBlockUnderAnEccentricLoad)
 
 TEST(ImplicitSolver, WhatASupportHeldIsLetGo)
 {
-  BlockMesh<2> mesh;
-  make_row(mesh);
   ImplicitParameters numbers;
   numbers.force_ratio = 1e-6;
-  ImplicitRun run(mesh, three_blocks(0.),
+  ImplicitRun run(make_row(), three_blocks(0.),
                   { moved("left", "0", "0"), moved("right", "1e-6*t", "") },
                   numbers);
   const StageParameters pulled = stage_with({ "left", "right" });

@@ -81,7 +81,7 @@ namespace
         add_curve(data, curves[i], 2. * i, 1., 2. * i, 2.);
         add_curve(data, i == 2 ? "weak" : curves[i], 2. * i, 0., 2. * i, 1.);
       }
-      split_into_blocks(data, {}, mesh);
+      mesh = split_into_blocks(data, {});
       ModelParameters parameters;
       parameters.plane     = PlaneAssumption::plane_stress;
       parameters.thickness = 0.5;

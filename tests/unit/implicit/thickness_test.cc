@@ -76,8 +76,7 @@ namespace
 
 TEST(Thickness, StressesAndTractionsOfAStackByTheImplicitSolver)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   for (const auto &[lower, upper] : thicknesses)
   {
     ImplicitRun run(
@@ -93,8 +92,7 @@ TEST(Thickness, StressesAndTractionsOfAStackByTheImplicitSolver)
 
 TEST(Thickness, StressesAndTractionsOfAStackByTheExplicitSolver)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   for (const auto &[lower, upper] : thicknesses)
   {
     TestRun run(
@@ -110,8 +108,7 @@ TEST(Thickness, StressesAndTractionsOfAStackByTheExplicitSolver)
 
 TEST(Thickness, WeightOfAStack)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   for (const auto &[lower, upper] : thicknesses)
   {
     ImplicitRun run(mesh, stack_of(lower, upper),
@@ -138,8 +135,7 @@ TEST(Thickness, WaveIsReflectedByTheRatioOfSections)
   data.group_names.push_back("thick");
   for (unsigned int c = 0; c < data.cells.size(); ++c)
     data.cell_group[c] = data.vertices[data.cells[c][0]][0] > section - 0.5;
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   ASSERT_EQ(mesh.n_blocks(), 1U);
 
   for (const double other : { 0.1, 1.5 })
@@ -178,9 +174,8 @@ TEST(Thickness, WaveIsReflectedByTheRatioOfSections)
 // Thickness is stiffness, density, load and joint stiffness that many times.
 TEST(Thickness, IsAFactorOfAllThatABlockIsAndBears)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  const auto solve = [&](const bool scaled, const bool rigid)
+  BlockMesh<2> mesh = make_stack(3, 2);
+  const auto solve  = [&](const bool scaled, const bool rigid)
   {
     constexpr double lower = 0.8, upper = 0.2;
     ModelParameters parameters = two_blocks(2e10, 1e10);
@@ -238,8 +233,7 @@ TEST(Thickness, GeneralContactsBearOverTheSmallerOne)
   MeshData<2> data;
   add_grid(data, 3, 2, "lower");
   add_grid(data, 3, 2, "upper", 0.25, height - overlap);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   for (const auto &[lower, upper] : thicknesses)
   {
     ModelParameters parameters             = stack_of(lower, upper);

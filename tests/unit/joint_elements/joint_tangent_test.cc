@@ -32,8 +32,7 @@ namespace
 
     explicit Joint(const JointSetParameters &set)
     {
-      BlockMesh<2> mesh;
-      make_stack(mesh, 1, 1);
+      BlockMesh<2> mesh = make_stack(1, 1);
       joints.prepare(TestNodes(mesh), { set }, thickness);
       State<2> state;
       joints.prepare(state);

@@ -46,8 +46,7 @@ namespace
     static BlockMesh<2> mesh(const unsigned int nx, const double angle,
                              const bool quadratic)
     {
-      BlockMesh<2> result;
-      make_stack(result, nx, 1, quadratic);
+      BlockMesh<2> result = make_stack(nx, 1, quadratic);
       const double c = std::cos(angle), s = std::sin(angle);
       for (auto &p : result.vertices)
         p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
@@ -759,8 +758,7 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   add_curve(data, "crack", 0, 1, 1, 1);
   SplitOptions options;
   options.joints_along = { "crack" };
-  BlockMesh<2> mesh;
-  split_into_blocks(data, options, mesh);
+  BlockMesh<2> mesh    = split_into_blocks(data, options);
   ASSERT_EQ(mesh.n_blocks(), 1U);
   ASSERT_EQ(mesh.joint_faces.size(), 1U);
   const unsigned int n = mesh.n_vertices();
@@ -829,8 +827,7 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
     if (i > 0)
       add_curve(data, i == 1 ? "first" : "second", i, 0, i, 1);
   }
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh    = split_into_blocks(data, {});
   const unsigned int n = mesh.n_vertices();
   MatchedJoints joints;
   joints.prepare(
@@ -883,8 +880,7 @@ TEST(MatchedJoints, UnnamedJointsHaveAWordOfTheirOwn)
   MeshData<2> data;
   add_grid(data, 1, 1, "lower");
   add_grid(data, 1, 1, "upper", 0., 1.);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   const TestNodes nodes(mesh);
   MatchedJoints joints;
   joints.prepare(nodes, { elastic_joint(kn, ks, "unnamed") }, 1.);

@@ -101,9 +101,7 @@ namespace quoin::test::space_stack
       data.cell_group.push_back(c < data.cells.size() / 2 ? 0 : 1);
     SplitOptions options;
     options.between_all = true;
-    BlockMesh<3> mesh;
-    split_into_blocks(data, options, mesh);
-    return mesh;
+    return split_into_blocks(data, options);
   }
 
   /** An inclined joint that is not flat on the axes. */

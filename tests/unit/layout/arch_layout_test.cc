@@ -43,9 +43,8 @@ namespace
       const auto geometry = arch_geometry(arch, lay_arch(arch));
       SplitOptions options;
       options.joints_along = geometry.joint_curves;
-      split_into_blocks(
-          mesh_gmsh_geometry(geometry.text, "arch", MPI_COMM_SELF), options,
-          mesh);
+      mesh                 = split_into_blocks(
+                          mesh_gmsh_geometry(geometry.text, "arch", MPI_COMM_SELF), options);
       const auto length = [&](const std::array<unsigned int, 2> &v)
       { return mesh.vertices[v[0]].distance(mesh.vertices[v[1]]); };
       for (const auto &face : mesh.joint_faces)

@@ -104,8 +104,7 @@ TEST(BlockSurfaces, ObjOfTwoBoxesThatTouch)
       geometry.text, file.name, MPI_COMM_SELF, MeshDimension::three));
   SplitOptions options;
   options.joints_along = geometry.joint_curves;
-  BlockMesh<3> split;
-  split_into_blocks(mesh, options, split);
+  BlockMesh<3> split   = split_into_blocks(mesh, options);
   EXPECT_EQ(split.n_blocks(), 2U);
   double area = 0.;
   for (const auto &face : split.joint_faces)
@@ -130,8 +129,7 @@ TEST(BlockSurfaces, OneBlockAndBlocksThatDoNotTouch)
     SplitOptions options;
     options.joints_along    = geometry.joint_curves;
     options.may_lack_joints = true;
-    BlockMesh<3> split;
-    split_into_blocks(mesh, options, split);
+    BlockMesh<3> split      = split_into_blocks(mesh, options);
     EXPECT_EQ(split.n_blocks(), n);
     EXPECT_TRUE(split.joint_faces.empty());
   }

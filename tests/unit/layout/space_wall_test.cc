@@ -74,11 +74,11 @@ namespace
       const auto made = space_wall_mesh(wall, lay_space_wall(wall));
       SplitOptions options;
       options.joints_along = made.joint_curves;
-      split_into_blocks(
-          std::get<MeshData<3>>(mesh_any_gmsh_geometry(
-              made.text, "wall", MPI_COMM_SELF, MeshDimension::three,
-              { TriangleKind::plain, refinements })),
-          options, mesh);
+      mesh                 = split_into_blocks(
+                          std::get<MeshData<3>>(mesh_any_gmsh_geometry(
+                              made.text, "wall", MPI_COMM_SELF, MeshDimension::three,
+                              { TriangleKind::plain, refinements })),
+                          options);
       for (const JointFace<3> &face : mesh.joint_faces)
         joints[mesh.face_names[face.name]] += triangle(mesh, face.lower);
       for (const auto &face : mesh.boundary_faces)

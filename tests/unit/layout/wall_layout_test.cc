@@ -60,9 +60,8 @@ namespace
       const auto geometry = wall_geometry(wall, lay_wall(wall));
       SplitOptions options;
       options.joints_along = geometry.joint_curves;
-      split_into_blocks(
-          mesh_gmsh_geometry(geometry.text, "wall", MPI_COMM_SELF), options,
-          mesh);
+      mesh                 = split_into_blocks(
+                          mesh_gmsh_geometry(geometry.text, "wall", MPI_COMM_SELF), options);
       for (const JointFace<2> &face : mesh.joint_faces)
         joint_length[mesh.face_names[face.name]]
             += mesh.vertices[face.lower[0]].distance(

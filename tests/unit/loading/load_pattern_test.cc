@@ -62,8 +62,7 @@ namespace
 
 TEST(LoadPattern, ControlIsExactWithAnyDamping)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   for (const DampingType damping :
        { DampingType::none, DampingType::local, DampingType::adaptive })
   {
@@ -84,9 +83,7 @@ TEST(LoadPattern, GravityOfAPatternIsThereAtOnce)
   // full, whether that stage has them or not.
   for (const bool acts_before : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
-    TestRun run(mesh, two_blocks(), held_and_pushed());
+    TestRun run(make_stack(3, 2), two_blocks(), held_and_pushed());
     std::vector<std::string> loads = { "hold" };
     if (acts_before)
       loads.push_back("gravity");
@@ -105,9 +102,7 @@ TEST(LoadPattern, GravityOfAPatternIsThereAtOnce)
 
 TEST(LoadPattern, SupportsTakeTheLoadAndEnergyIsKept)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), held_and_pushed());
+  TestRun run(make_stack(3, 2), two_blocks(), held_and_pushed());
   run.begin(pushed("1e-3 * t"), 0.98);
   const double weight = g * total_mass(run.model);
   double held         = 0.;
@@ -135,9 +130,7 @@ TEST(LoadPattern, SupportsTakeTheLoadAndEnergyIsKept)
 
 TEST(LoadPattern, WorkWithLocalDampingIsThatOfTheFactor)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), held_and_pushed());
+  TestRun run(make_stack(3, 2), two_blocks(), held_and_pushed());
   const std::string slowly = "1e-4 * if(t < 0.01, t^2 / 0.02, t - 0.005)";
   run.begin(pushed(slowly, DampingType::local), 0.5);
   const double weight = g * total_mass(run.model);
@@ -165,8 +158,7 @@ TEST(LoadPattern, TurnsRigidBlocksByTheMomentOfItsLoads)
 {
   MeshData<2> data;
   add_grid(data, 2, 4, "block", 0., 0.);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   ModelParameters parameters;
   MaterialParameters stone = material("block", 2000.);
   stone.rigid              = true;
@@ -201,9 +193,7 @@ TEST(LoadPattern, TurnsRigidBlocksByTheMomentOfItsLoads)
 
 TEST(LoadPattern, GoesOnWithItsFactorInTheNextStage)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), held_and_pushed());
+  TestRun run(make_stack(3, 2), two_blocks(), held_and_pushed());
   StageParameters stage = pushed("1e-4 * if(t < 0.01, t^2 / 0.02, t - 0.005)",
                                  DampingType::local);
   run.begin(stage);
@@ -221,8 +211,7 @@ TEST(LoadPattern, GoesOnWithItsFactorInTheNextStage)
 
 TEST(LoadPattern, ImplicitFactorIsTheLoadOfTheSameDisplacement)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   // Of a vertical displacement, which is not along the loads.
   const double wanted = 1e-5;
   ImplicitRun run(mesh, two_blocks(), held_and_pushed());
@@ -253,11 +242,9 @@ TEST(LoadPattern, ImplicitFactorIsTheLoadOfTheSameDisplacement)
 // What is controlled may move little where blocks that nothing holds go far.
 TEST(LoadPattern, ImplicitStepsMoveATwentiethOfTheModelAtMost)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
   ImplicitParameters numbers;
   numbers.first_step = numbers.largest_step = 1.;
-  ImplicitRun run(mesh, two_blocks(), held_and_pushed(), numbers);
+  ImplicitRun run(make_stack(3, 2), two_blocks(), held_and_pushed(), numbers);
   const StageParameters stage = pushed("0.3 * t");
   run.solver.begin_stage(stage, nullptr, run.state);
   const double most = 0.05 * run.model.nodes().table().diagonal();

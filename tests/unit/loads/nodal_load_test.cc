@@ -171,8 +171,7 @@ TEST(NodalLoad, PressureInAJointIsInBalanceWhateverTheThicknesses)
   add_grid(data, 1, 1, "footing", 0., 0.);
   add_grid(data, 1, 1, "wall", 0., 1.);
   add_curve(data, "joint", 0., 1., 1., 1.);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   const TestNodes nodes(mesh);
   LoadParameters constant;
   constant.name        = "water";

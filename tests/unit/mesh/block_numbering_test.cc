@@ -27,11 +27,11 @@ namespace
     return data;
   }
 
-  void split(const MeshData<2> &data, BlockMesh<2> &mesh)
+  BlockMesh<2> split(const MeshData<2> &data)
   {
     SplitOptions options;
     options.joints_along = { "joint" };
-    split_into_blocks(data, options, mesh);
+    return split_into_blocks(data, options);
   }
 
   dealii::Point<2> corner(const BlockMesh<2> &mesh, const unsigned int block)
@@ -47,8 +47,7 @@ namespace
 
 TEST(BlockNumbering, FollowsTheBoundaryOfEachBlock)
 {
-  BlockMesh<2> mesh;
-  split(tiles(3), mesh);
+  const BlockMesh<2> mesh = split(tiles(3));
   expect_consistent(mesh, 36.);
   ASSERT_EQ(mesh.n_blocks(), 9U);
   for (unsigned int b = 0; b < 9; ++b)
@@ -64,12 +63,11 @@ TEST(BlockNumbering, FollowsTheBoundaryOfEachBlock)
 
 TEST(BlockNumbering, PermutesBlocks)
 {
-  BlockMesh<2> mesh, permuted;
-  split(tiles(2), mesh);
+  BlockMesh<2> mesh                     = split(tiles(2));
   const std::vector<unsigned int> order = { 2, 0, 3, 1 };
   SplitOptions options;
-  options.joints_along = { "joint" };
-  split_into_blocks(tiles(2), options, permuted, &order);
+  options.joints_along        = { "joint" };
+  const BlockMesh<2> permuted = split_into_blocks(tiles(2), options, &order);
   expect_consistent(permuted, 16.);
   for (unsigned int b = 0; b < 4; ++b)
     EXPECT_EQ(corner(permuted, b), corner(mesh, order[b]));
@@ -89,9 +87,8 @@ TEST(BlockNumbering, RigidBlocksComeBehindTheOthers)
   EXPECT_EQ(order_rigid_last({ true, true }),
             std::vector<unsigned int>({ 0, 1 }));
 
-  BlockMesh<2> mesh, ordered;
-  split(tiles(8), mesh);
-  ordered = mesh;
+  const BlockMesh<2> mesh = split(tiles(8));
+  BlockMesh<2> ordered    = mesh;
   std::vector<bool> is_rigid;
   for (unsigned int b = 0; b < 64; ++b)
     is_rigid.push_back(b % 5 < 2);
@@ -129,8 +126,7 @@ TEST(MeshData, TurnsClockwiseTrianglesAndRefusesFlatOnes)
   std::swap(data.cells[1][0], data.cells[1][1]);
   orient_cells(data);
   EXPECT_EQ(data.n_reoriented, 1U);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   expect_consistent(mesh, 1.);
   EXPECT_EQ(mesh.n_reoriented_cells, 1U);
 

@@ -35,8 +35,7 @@ TEST(BlockSplitter, LeavesASquareWhole)
   MeshData<2> data;
   add_grid(data, 3, 2, "rock");
   add_curve(data, "base", 0, 0, 3, 0);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
 
   expect_consistent(mesh, 6.);
   EXPECT_EQ(mesh.n_blocks(), 1U);
@@ -60,8 +59,7 @@ TEST(BlockSplitter, PutsTheLowerBlockBelowABedJoint)
   MeshData<2> data;
   add_grid(data, 3, 2, "brick");
   add_curve(data, "bed", 0, 1, 3, 1);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, along({ "bed" }), mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, along({ "bed" }));
 
   expect_consistent(mesh, 6.);
   EXPECT_EQ(mesh.n_blocks(), 2U);
@@ -80,8 +78,7 @@ TEST(BlockSplitter, PutsTheLowerBlockLeftOfAHeadJoint)
   MeshData<2> data;
   add_grid(data, 2, 3, "brick");
   add_curve(data, "head", 1, 0, 1, 3);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, along({ "head" }), mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, along({ "head" }));
 
   expect_consistent(mesh, 6.);
   ASSERT_EQ(mesh.joint_faces.size(), 3U);
@@ -98,8 +95,7 @@ TEST(BlockSplitter, SplitsAnXCrossingIntoFour)
   add_grid(data, 4, 4, "rock");
   add_curve(data, "first", 2, 0, 2, 4);
   add_curve(data, "second", 0, 2, 4, 2);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, along({ "first", "second" }), mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, along({ "first", "second" }));
 
   expect_consistent(mesh, 16.);
   EXPECT_EQ(mesh.n_blocks(), 4U);
@@ -119,8 +115,7 @@ TEST(BlockSplitter, SplitsATCrossingIntoThree)
   add_grid(data, 4, 4, "brick");
   add_curve(data, "bed", 0, 2, 4, 2);
   add_curve(data, "head", 2, 2, 2, 4);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, along({ "bed", "head" }), mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, along({ "bed", "head" }));
 
   expect_consistent(mesh, 16.);
   EXPECT_EQ(mesh.n_blocks(), 3U);
@@ -143,8 +138,7 @@ TEST(BlockSplitter, SplitsSixBlocksAtAVertex)
   }
   SplitOptions options;
   options.between_all = true;
-  BlockMesh<2> mesh;
-  split_into_blocks(data, options, mesh);
+  BlockMesh<2> mesh   = split_into_blocks(data, options);
 
   expect_consistent(mesh, 6. * std::sqrt(0.1875));
   EXPECT_EQ(mesh.n_blocks(), 6U);
@@ -162,8 +156,7 @@ TEST(BlockSplitter, SplitsBetweenTheGivenSurfacesOnly)
   data.cell_group  = { 0, 0, 1, 1, 2, 2 };
   SplitOptions options;
   options.joints_between = { { "c", "b" } };
-  BlockMesh<2> mesh;
-  split_into_blocks(data, options, mesh);
+  BlockMesh<2> mesh      = split_into_blocks(data, options);
 
   expect_consistent(mesh, 3.);
   EXPECT_EQ(mesh.n_blocks(), 2U);
@@ -178,8 +171,7 @@ TEST(BlockSplitter, KeepsACrackThatEndsInside)
   MeshData<2> data;
   add_grid(data, 4, 4, "rock");
   add_curve(data, "crack", 0, 2, 2, 2);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, along({ "crack" }), mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, along({ "crack" }));
 
   expect_consistent(mesh, 16.);
   EXPECT_EQ(mesh.n_blocks(), 1U);
@@ -196,8 +188,7 @@ TEST(BlockSplitter, KeepsACrackWithTwoTips)
   MeshData<2> data;
   add_grid(data, 4, 4, "rock");
   add_curve(data, "crack", 1, 1, 3, 3);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, along({ "crack" }), mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, along({ "crack" }));
 
   expect_consistent(mesh, 16., 1);
   EXPECT_EQ(mesh.n_blocks(), 1U);
@@ -211,13 +202,12 @@ TEST(BlockSplitter, RefusesJointEndsIfAsked)
   add_curve(data, "crack", 0, 2, 2, 2);
   SplitOptions options = along({ "crack" });
   options.joint_ends   = SplitOptions::refuse;
-  BlockMesh<2> mesh;
-  expect_input_error([&] { split_into_blocks(data, options, mesh); },
+  expect_input_error([&] { split_into_blocks(data, options); },
                      { "curve 'crack' ends inside a block at (2, 2)",
                        "Joint ends inside blocks = keep" });
 
   add_curve(data, "crack", 2, 2, 4, 2);
-  split_into_blocks(data, options, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, options);
   EXPECT_EQ(mesh.n_blocks(), 2U);
 }
 
@@ -227,10 +217,9 @@ TEST(BlockSplitter, FindsJointsOfBlocksThatAreApart)
   MeshData<2> data;
   add_grid(data, 2, 1, "below");
   add_grid(data, 2, 1, "above", 3e-4, 1. - 3e-4);
-  data.faces     = { { { node_at(data, 0, 1), node_at(data, 1, 1) } } };
-  data.face_name = { index_of("bed", data.face_names) };
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  data.faces        = { { { node_at(data, 0, 1), node_at(data, 1, 1) } } };
+  data.face_name    = { index_of("bed", data.face_names) };
+  BlockMesh<2> mesh = split_into_blocks(data, {});
 
   expect_consistent(mesh, 2. * (2. - 3e-4));
   EXPECT_EQ(mesh.n_blocks(), 2U);
@@ -249,12 +238,12 @@ TEST(BlockSplitter, FindsJointsOfBlocksThatAreApart)
   // Named joints may lie on either side; that is no dangling curve.
   data.faces[0] = { { node_at(data, 3e-4, 1. - 3e-4),
                       node_at(data, 1. + 3e-4, 1. - 3e-4) } };
-  split_into_blocks(data, along({ "bed" }), mesh);
+  mesh          = split_into_blocks(data, along({ "bed" }));
   EXPECT_NEAR(joint_length(mesh, "bed"), 1., 1e-12);
 
   SplitOptions strict;
   strict.coincidence_tolerance = 1e-4;
-  split_into_blocks(data, strict, mesh);
+  mesh                         = split_into_blocks(data, strict);
   EXPECT_EQ(mesh.joint_faces.size(), 0U);
 }
 
@@ -264,8 +253,7 @@ TEST(BlockSplitter, FindsCoincidentEdgesFarFromTheOrigin)
   for (unsigned int j = 0; j < 5; ++j)
     for (unsigned int i = 0; i < 5; ++i)
       add_grid(data, 2, 2, "brick", 1e4 + .2 * i, -3e3 + .2 * j, .1);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   EXPECT_EQ(mesh.n_blocks(), 25U);
   EXPECT_EQ(mesh.joint_faces.size(), 80U);
   EXPECT_EQ(mesh.boundary_faces.size(), 40U);
@@ -277,8 +265,7 @@ TEST(BlockSplitter, SeparatesBlocksThatMeetInAPoint)
   add_grid(data, 2, 2, "rock");
   data.cells.erase(data.cells.begin() + 2, data.cells.begin() + 6);
   data.cell_group.resize(4);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   expect_consistent(mesh, 2.);
   EXPECT_EQ(mesh.n_blocks(), 2U);
   EXPECT_EQ(mesh.n_vertices(), 8U);
@@ -290,17 +277,17 @@ TEST(BlockSplitter, RefusesNamesThatDoNotExist)
   add_grid(data, 2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   BlockMesh<2> mesh;
-  expect_input_error([&] { split_into_blocks(data, along({ "falt" }), mesh); },
+  expect_input_error([&] { split_into_blocks(data, along({ "falt" })); },
                      { "no physical curve 'falt'",
                        "The mesh has fault. The nearest one is 'fault'." });
-  expect_input_error([&] { split_into_blocks(data, along({ "" }), mesh); },
+  expect_input_error([&] { split_into_blocks(data, along({ "" })); },
                      { "no physical curve ''" });
   SplitOptions options;
   options.joints_between = { { "rock", "soil" } };
-  expect_input_error([&] { split_into_blocks(data, options, mesh); },
+  expect_input_error([&] { split_into_blocks(data, options); },
                      { "no physical surface 'soil'", "The mesh has rock." });
   options.joints_between = { { "rock", "rock" } };
-  expect_input_error([&] { split_into_blocks(data, options, mesh); },
+  expect_input_error([&] { split_into_blocks(data, options); },
                      { "'rock' with itself" });
 }
 
@@ -310,8 +297,7 @@ TEST(BlockSplitter, RefusesJointsOnTheOuterBoundary)
   add_grid(data, 2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   add_curve(data, "fault", 2, 1, 2, 2);
-  BlockMesh<2> mesh;
-  expect_input_error([&] { split_into_blocks(data, along({ "fault" }), mesh); },
+  expect_input_error([&] { split_into_blocks(data, along({ "fault" })); },
                      { "curve 'fault' dangles at (2, 1.5)" });
 }
 
@@ -322,13 +308,13 @@ TEST(BlockSplitter, RefusesCurvesThatAreNoEdges)
   add_curve(data, "fault", 0, 1, 1, 0); // across the diagonals
   BlockMesh<2> mesh;
   expect_input_error(
-      [&] { split_into_blocks(data, along({ "fault" }), mesh); },
+      [&] { split_into_blocks(data, along({ "fault" })); },
       { "curve 'fault' is no edge of the mesh at (0.5, 0.5)", "In Surface" });
-  EXPECT_NO_THROW(split_into_blocks(data, {}, mesh));
+  EXPECT_NO_THROW(split_into_blocks(data, {}));
 
   data.faces.clear();
   data.face_name.clear();
-  expect_input_error([&] { split_into_blocks(data, along({ "fault" }), mesh); },
+  expect_input_error([&] { split_into_blocks(data, along({ "fault" })); },
                      { "curve 'fault' has no line elements" });
 }
 
@@ -338,26 +324,24 @@ TEST(BlockSplitter, RefusesCurvesOnEachOther)
   add_grid(data, 2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   add_curve(data, "seam", 1, 1, 2, 1);
-  BlockMesh<2> mesh;
-  expect_input_error([&] { split_into_blocks(data, {}, mesh); },
+  expect_input_error([&] { split_into_blocks(data, {}); },
                      { "'fault' and 'seam' lie on each other at (1.5, 1)" });
 }
 
 TEST(BlockSplitter, RefusesOverlaps)
 {
-  BlockMesh<2> mesh;
   MeshData<2> data;
   add_grid(data, 2, 2, "rock");
   MeshData<2> twice = data;
   twice.cells.push_back(twice.cells.front());
   twice.cell_group.push_back(0);
-  expect_input_error([&] { split_into_blocks(twice, {}, mesh); },
+  expect_input_error([&] { split_into_blocks(twice, {}); },
                      { "triangles overlap" });
 
   add_grid(data, 2, 2, "rock");
-  expect_input_error([&] { split_into_blocks(data, {}, mesh); },
+  expect_input_error([&] { split_into_blocks(data, {}); },
                      { "blocks overlap" });
-  expect_input_error([&] { split_into_blocks(MeshData<2>(), {}, mesh); },
+  expect_input_error([&] { split_into_blocks(MeshData<2>(), {}); },
                      { "no triangles" });
 }
 
@@ -376,8 +360,7 @@ TEST(BlockSplitter, GivesTheSameBlocksForAnyOrderOfTriangles)
   const MeshData<2> *meshes[2] = { &data, &reversed };
   for (unsigned int i = 0; i < 2; ++i)
   {
-    BlockMesh<2> mesh;
-    split_into_blocks(*meshes[i], along({ "joint" }), mesh);
+    BlockMesh<2> mesh = split_into_blocks(*meshes[i], along({ "joint" }));
     expect_consistent(mesh, 36.);
     EXPECT_DOUBLE_EQ(joint_length(mesh, "joint"), 10.);
     for (unsigned int b = 0; b < mesh.n_blocks(); ++b)

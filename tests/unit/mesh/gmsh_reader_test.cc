@@ -64,8 +64,7 @@ namespace
     EXPECT_EQ(data.group_names, (std::vector<std::string>{ "left", "right" }));
     SplitOptions options;
     options.joints_along = { "joint" };
-    BlockMesh<2> mesh;
-    split_into_blocks(data, options, mesh);
+    BlockMesh<2> mesh    = split_into_blocks(data, options);
     expect_consistent(mesh, 2.);
     EXPECT_EQ(mesh.n_blocks(), 2U);
     EXPECT_DOUBLE_EQ(make_mesh_report(mesh).joint_size.at("joint"), 1.);

@@ -18,9 +18,8 @@ TEST(MeshReport, CountsAndMeasures)
   add_curve(data, "bed", -1, 1, 3, 1);
   add_curve(data, "crack", 1, 1, 1, 2);
   SplitOptions options;
-  options.joints_along = { "bed", "crack" };
-  BlockMesh<2> mesh;
-  split_into_blocks(data, options, mesh);
+  options.joints_along    = { "bed", "crack" };
+  BlockMesh<2> mesh       = split_into_blocks(data, options);
   const MeshReport report = make_mesh_report(mesh);
 
   EXPECT_EQ(report.n_blocks, 3U);
@@ -51,9 +50,8 @@ TEST(MeshReport, SpeaksOfQuadraticTriangles)
   add_curve(data, "bed", 0, 1, 4, 1);
   data.quadratic = true;
   SplitOptions options;
-  options.joints_along = { "bed" };
-  BlockMesh<2> mesh;
-  split_into_blocks(data, options, mesh);
+  options.joints_along    = { "bed" };
+  BlockMesh<2> mesh       = split_into_blocks(data, options);
   const MeshReport report = make_mesh_report(mesh);
 
   EXPECT_TRUE(report.quadratic);
@@ -78,9 +76,8 @@ TEST(MeshReport, CountsJointEnds)
   add_curve(data, "crack", 0, 1, 2, 1);
   add_curve(data, "short", 1, 3, 2, 3);
   SplitOptions options;
-  options.joints_along = { "crack", "short" };
-  BlockMesh<2> mesh;
-  split_into_blocks(data, options, mesh);
+  options.joints_along    = { "crack", "short" };
+  BlockMesh<2> mesh       = split_into_blocks(data, options);
   const MeshReport report = make_mesh_report(mesh);
   EXPECT_EQ(report.n_joint_ends, 3U);
   EXPECT_EQ(report.n_tied_joint_faces, 1U);
@@ -94,8 +91,7 @@ TEST(MeshReport, FindsEdgesThatTouchWithoutMatching)
   add_grid(data, 1, 1, "left");
   add_grid(data, 2, 1, "right", 1., 0., 0.5);
   add_grid(data, 2, 1, "right", 1., 0.5, 0.5);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   EXPECT_EQ(mesh.n_blocks(), 3U);
   EXPECT_EQ(mesh.joint_faces.size(), 2U); // between those on the right
   const MeshReport report = make_mesh_report(mesh);
@@ -114,9 +110,8 @@ TEST(MeshReport, FindsSlivers)
   const auto report_of = [&](const double x)
   {
     data.vertices[node_at(data, 1., 1.)][0] = x;
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
-    data.vertices[6][0] = 1.;
+    BlockMesh<2> mesh                       = split_into_blocks(data, {});
+    data.vertices[6][0]                     = 1.;
     return make_mesh_report(mesh);
   };
   EXPECT_NEAR(report_of(1.).smallest_height, std::sqrt(0.5), 1e-12);
@@ -144,9 +139,8 @@ TEST(MeshReport, FindsSlenderBlocksWithFewCellsAcross)
       if (i == 1)
         add_curve(data, "top", 0., y + ny, nx, y + ny);
     }
-    data.quadratic = quadratic;
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
+    data.quadratic    = quadratic;
+    BlockMesh<2> mesh = split_into_blocks(data, {});
     for (dealii::Point<2> &p : mesh.vertices)
       p = dealii::Point<2>(1e3 + 0.8 * p[0] - 0.6 * p[1],
                            0.6 * p[0] + 0.8 * p[1]);
@@ -182,8 +176,7 @@ TEST(MeshReport, DoesNotMistakeCornersForContacts)
   add_grid(data, 2, 2, "a");
   add_grid(data, 2, 2, "b", 2., 2.);   // meets it in a point
   add_grid(data, 2, 2, "c", 2., -2.1); // passes it
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   EXPECT_EQ(make_mesh_report(mesh).unmatched_size, 0.);
 }
 
@@ -194,8 +187,7 @@ TEST(MeshReport, FindsBlocksThatOverlap)
     MeshData<2> data;
     add_grid(data, 4, 4, "rock");
     add_grid(data, 2, 2, "lining", x, y, side);
-    BlockMesh<2> mesh;
-    split_into_blocks(data, SplitOptions(), mesh);
+    BlockMesh<2> mesh = split_into_blocks(data, SplitOptions());
     return make_mesh_report(mesh);
   };
   // Beside it, at a corner, on its side with other nodes; in part; within.
@@ -247,7 +239,6 @@ TEST(MeshReport, MeshesOfAnArcThatDoNotMatchAreNoOverlap)
     add_triangle(a, d, c);
     add_triangle(a, c, b);
   }
-  BlockMesh<2> mesh;
-  split_into_blocks(data, SplitOptions(), mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, SplitOptions());
   EXPECT_FALSE(make_mesh_report(mesh).overlaps);
 }

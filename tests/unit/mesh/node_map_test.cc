@@ -44,9 +44,7 @@ namespace quoin::test
       SplitOptions options;
       options.joints_along = { "crack" };
       options.joint_ends   = SplitOptions::keep;
-      BlockMesh<2> mesh;
-      split_into_blocks(data, options, mesh);
-      return mesh;
+      return split_into_blocks(data, options);
     }
 
     /** Stripes of cells, so that blocks lie on all ranks. */
@@ -372,9 +370,7 @@ namespace quoin::test
       data.quadratic = true;
       SplitOptions options;
       options.joints_along = { "bed", "head", "crack", "short" };
-      BlockMesh<2> mesh;
-      split_into_blocks(data, options, mesh);
-      return mesh;
+      return split_into_blocks(data, options);
     }
   } // namespace
 
@@ -520,8 +516,7 @@ namespace quoin::test
     MeshData<2> data;
     for (unsigned int b = 0; b < 8; ++b)
       add_grid(data, 4, 4, "block", 5. * b);
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
+    BlockMesh<2> mesh = split_into_blocks(data, {});
     const auto rank
         = partition_cells(mesh, std::vector<bool>(mesh.n_blocks(), false), 4);
     std::vector<unsigned int> load(4, 0);
@@ -547,8 +542,7 @@ namespace quoin::test
     }
     SplitOptions options;
     options.joints_along = { "joint" };
-    BlockMesh<2> mesh;
-    split_into_blocks(data, options, mesh);
+    BlockMesh<2> mesh    = split_into_blocks(data, options);
     ASSERT_EQ(mesh.n_blocks(), 64U);
     const auto rank = partition_cells(mesh, std::vector<bool>(64, false), 4);
     ASSERT_EQ(rank.size(), mesh.n_cells());
@@ -567,8 +561,7 @@ namespace quoin::test
     MeshData<2> data;
     for (unsigned int b = 0; b < 4; ++b)
       add_grid(data, 2, 2, "block", 3. * b);
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
+    BlockMesh<2> mesh = split_into_blocks(data, {});
     const std::vector<bool> all_rigid(4, true), none_rigid(4, false);
     EXPECT_EQ(partition_cells(mesh, none_rigid, 1),
               std::vector<unsigned int>(mesh.n_cells(), 0));
@@ -587,7 +580,7 @@ namespace quoin::test
     add_grid(uneven, 10, 10, "block");
     for (unsigned int i = 0; i < 4; ++i)
       add_grid(uneven, 1, 1, "block", 20. + 2 * i);
-    split_into_blocks(uneven, {}, mesh);
+    mesh = split_into_blocks(uneven, {});
     ASSERT_EQ(mesh.n_blocks(), 5U);
     for (const bool rigid : { false, true })
     {
@@ -609,8 +602,7 @@ namespace quoin::test
     MeshData<2> data;
     add_grid(data, 60, 60, "large");
     add_grid(data, 6, 6, "small", 70.);
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
+    BlockMesh<2> mesh = split_into_blocks(data, {});
     for (const unsigned int n : { 2U, 3U, 4U })
     {
       const auto rank = partition_cells(mesh, { false, false }, n);
@@ -637,9 +629,8 @@ namespace quoin::test
     MeshData<2> data;
     add_grid(data, 30, 30, "large");
     add_grid(data, 6, 6, "small", 40.);
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
-    const auto rank = partition_cells(mesh, { true, true }, 3);
+    BlockMesh<2> mesh = split_into_blocks(data, {});
+    const auto rank   = partition_cells(mesh, { true, true }, 3);
     for (unsigned int b = 0; b < 2; ++b)
       for (unsigned int c = mesh.block_first_cell[b];
            c < mesh.block_first_cell[b + 1]; ++c)

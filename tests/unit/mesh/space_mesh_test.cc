@@ -234,8 +234,7 @@ TEST(SpaceMesh, TwoBoxesOfGmsh)
 {
   const MeshData<3> data = read_boxes(MPI_COMM_SELF);
   EXPECT_EQ(data.group_names, (std::vector<std::string>{ "lower", "upper" }));
-  BlockMesh<3> mesh;
-  split_into_blocks(data, along({ "bed" }), mesh);
+  BlockMesh<3> mesh = split_into_blocks(data, along({ "bed" }));
   expect_consistent(mesh, 1.5);
   ASSERT_EQ(mesh.n_blocks(), 2U);
   EXPECT_NEAR(volume_of_block(mesh, 0), 1., 1e-12);
@@ -259,12 +258,11 @@ TEST(SpaceMesh, TwoBoxesOfGmsh)
 
   // The same joint, found between the groups; no joint.
   SplitOptions between;
-  between.joints_between = { { "lower", "upper" } };
-  BlockMesh<3> same, whole;
-  split_into_blocks(data, between, same);
+  between.joints_between  = { { "lower", "upper" } };
+  const BlockMesh<3> same = split_into_blocks(data, between);
   EXPECT_EQ(same.cells, mesh.cells);
   EXPECT_EQ(same.joint_faces.size(), mesh.joint_faces.size());
-  split_into_blocks(data, {}, whole);
+  const BlockMesh<3> whole = split_into_blocks(data, {});
   expect_consistent(whole, 1.5);
   EXPECT_EQ(whole.n_blocks(), 1U);
   EXPECT_EQ(whole.joint_faces.size(), 0U);
@@ -277,8 +275,8 @@ TEST(SpaceMesh, EightBlocksMeetInAPoint)
   for (unsigned int d = 0; d < 3; ++d)
     add_surface(data, "joint " + std::to_string(d),
                 [&](const Point &p) { return std::abs(p[d] - 2.) < 1e-9; });
-  BlockMesh<3> mesh;
-  split_into_blocks(data, along({ "joint 0", "joint 1", "joint 2" }), mesh);
+  BlockMesh<3> mesh
+      = split_into_blocks(data, along({ "joint 0", "joint 1", "joint 2" }));
   expect_consistent(mesh, 64.);
   ASSERT_EQ(mesh.n_blocks(), 8U);
   EXPECT_EQ(mesh.n_vertices(), 8U * 27U);
@@ -309,8 +307,7 @@ TEST(SpaceMesh, LowerIsTheSideBelow)
                 [](const Point &p) { return std::abs(p[0] - 1.) < 1e-9; });
     for (Point &p : data.vertices)
       p = Point(p[0] + slope * p[1], p[1], p[2] + slope * (p[0] + p[1]));
-    BlockMesh<3> mesh;
-    split_into_blocks(data, along({ "bed", "head" }), mesh);
+    BlockMesh<3> mesh = split_into_blocks(data, along({ "bed", "head" }));
     expect_consistent(mesh, 8.);
     EXPECT_EQ(mesh.n_blocks(), 4U);
     for (const JointFace<3> &face : mesh.joint_faces)
@@ -331,8 +328,7 @@ TEST(SpaceMesh, BoxesApartTouch)
   add_box(data, { 2, 2, 1 }, "a");
   add_box(data, { 2, 2, 1 }, "b", Point(1e-5, 0., 1.));
   add_box(data, { 1, 1, 1 }, "c", Point(2., 0., 0.), 2.);
-  BlockMesh<3> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<3> mesh = split_into_blocks(data, {});
   expect_consistent(mesh, 16.);
   ASSERT_EQ(mesh.n_blocks(), 3U);
   ASSERT_EQ(mesh.joint_faces.size(), 8U);
@@ -356,8 +352,7 @@ TEST(SpaceMesh, CracksEndAtAFront)
   add_surface(data, "crack",
               [](const Point &p)
               { return std::abs(p[2] - 1.) < 1e-9 && p[0] < 1.1; });
-  BlockMesh<3> mesh;
-  split_into_blocks(data, along({ "crack" }), mesh);
+  BlockMesh<3> mesh = split_into_blocks(data, along({ "crack" }));
   EXPECT_EQ(mesh.n_blocks(), 1U);
   EXPECT_EQ(mesh.n_vertices(), 27U + 3U);
   EXPECT_EQ(mesh.joint_faces.size(), 4U);
@@ -373,7 +368,7 @@ TEST(SpaceMesh, CracksEndAtAFront)
 
   SplitOptions refusing = along({ "crack" });
   refusing.joint_ends   = SplitOptions::refuse;
-  expect_input_error([&] { split_into_blocks(data, refusing, mesh); },
+  expect_input_error([&] { split_into_blocks(data, refusing); },
                      { "surface 'crack' ends inside a block at (1, ",
                        "Joint ends inside blocks = keep" });
 }
@@ -424,10 +419,9 @@ TEST(SpaceMesh, MixedTetrahedraKeepJointsAndNames)
 {
   MeshData<3> data           = read_boxes(MPI_COMM_SELF);
   const unsigned int n_plain = data.cells.size();
-  BlockMesh<3> plain, mesh;
-  split_into_blocks(data, along({ "bed" }), plain);
+  const BlockMesh<3> plain   = split_into_blocks(data, along({ "bed" }));
   make_mixed(data);
-  split_into_blocks(data, along({ "bed" }), mesh);
+  const BlockMesh<3> mesh = split_into_blocks(data, along({ "bed" }));
   expect_consistent(mesh, 1.5);
   EXPECT_TRUE(mesh.mixed);
   EXPECT_EQ(mesh.n_blocks(), 2U);
@@ -460,8 +454,7 @@ TEST(SpaceMesh, CracksOfMixedTetrahedraEndAtTheSameFront)
               [](const Point &p)
               { return std::abs(p[2] - 1.) < 1e-9 && p[0] < 1.1; });
   make_mixed(data);
-  BlockMesh<3> mesh;
-  split_into_blocks(data, along({ "crack" }), mesh);
+  BlockMesh<3> mesh = split_into_blocks(data, along({ "crack" }));
   EXPECT_EQ(mesh.n_blocks(), 1U);
   EXPECT_EQ(mesh.joint_faces.size(), 16U);
   for (const JointFace<3> &face : mesh.joint_faces)
@@ -479,25 +472,24 @@ TEST(SpaceMesh, RefusesWhatIsNoJoint)
   data.faces.push_back({ { 0, 1, 11 } });
   data.face_name.push_back(index_of("inside", data.face_names));
   BlockMesh<3> mesh;
-  expect_input_error([&] { split_into_blocks(data, along({ "side" }), mesh); },
+  expect_input_error([&] { split_into_blocks(data, along({ "side" })); },
                      { "surface 'side' dangles at (0, ", "Mesh/Joints along" });
   expect_input_error(
-      [&] { split_into_blocks(data, along({ "inside" }), mesh); },
+      [&] { split_into_blocks(data, along({ "inside" })); },
       { "surface 'inside' is no face of the mesh", "Surface{...} In Volume" });
-  expect_input_error([&]
-                     { split_into_blocks(data, along({ "nowhere" }), mesh); },
+  expect_input_error([&] { split_into_blocks(data, along({ "nowhere" })); },
                      { "no physical surface 'nowhere'", "has side, inside." });
   SplitOptions between;
   between.joints_between = { { "rock", "soil" } };
-  expect_input_error([&] { split_into_blocks(data, between, mesh); },
+  expect_input_error([&] { split_into_blocks(data, between); },
                      { "no physical volume 'soil'" });
 
   MeshData<3> twice = data;
   twice.cells.push_back(twice.cells[3]);
   twice.cell_group.push_back(0);
-  expect_input_error([&] { split_into_blocks(twice, {}, mesh); },
+  expect_input_error([&] { split_into_blocks(twice, {}); },
                      { "tetrahedra overlap at the face" });
-  expect_input_error([&] { split_into_blocks(MeshData<3>(), {}, mesh); },
+  expect_input_error([&] { split_into_blocks(MeshData<3>(), {}); },
                      { "there are no tetrahedra" });
 }
 
@@ -506,10 +498,9 @@ TEST(SpaceMesh, BlocksArePermuted)
   MeshData<3> data;
   for (unsigned int i = 0; i < 4; ++i)
     add_box(data, { i + 1, 2, 2 }, "rock", Point(6. * i, 0., 0.));
-  BlockMesh<3> mesh, permuted;
   const std::vector<unsigned int> order = { 2, 0, 3, 1 };
-  split_into_blocks(data, {}, mesh);
-  split_into_blocks(data, {}, permuted, &order);
+  BlockMesh<3> mesh                     = split_into_blocks(data, {});
+  const BlockMesh<3> permuted           = split_into_blocks(data, {}, &order);
   expect_consistent(permuted, 40.);
   for (unsigned int b = 0; b < 4; ++b)
   {
@@ -524,8 +515,7 @@ TEST(SpaceMesh, CellsFollowACurve)
 {
   MeshData<3> data;
   add_box(data, { 16, 16, 16 }, "rock");
-  BlockMesh<3> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<3> mesh = split_into_blocks(data, {});
   // Along the curve from one cube to the next one: most cells that follow each
   // other have a vertex in common.
   unsigned int n_together = 0;
@@ -567,8 +557,7 @@ TEST(SpaceMesh, ReportsTheShapeOfTetrahedra)
     data.cell_group  = { 0 };
     data.group_names = { "rock" };
     orient_cells(data);
-    BlockMesh<3> mesh;
-    split_into_blocks(data, {}, mesh);
+    BlockMesh<3> mesh = split_into_blocks(data, {});
     return make_mesh_report(mesh);
   };
   // Dihedral angles: acos(1/3) of a regular one; of the corner of a cube, where
@@ -606,8 +595,7 @@ TEST(SpaceMesh, FindsBlocksThatOverlap)
     MeshData<3> data;
     add_box(data, { 3, 3, 3 }, "rock");
     add_box(data, { 1, 1, 1 }, "lining", at, h);
-    BlockMesh<3> mesh;
-    split_into_blocks(data, {}, mesh);
+    BlockMesh<3> mesh = split_into_blocks(data, {});
     return make_mesh_report(mesh);
   };
   // Beside it, at a corner, on its side with other nodes; in part; within.
@@ -634,7 +622,7 @@ TEST(SpaceMeshOfRanks, BlocksAreDistributed)
   MeshReport report;
   if (this_mpi_process(MPI_COMM_WORLD) == 0)
   {
-    split_into_blocks(data, along({ "bed" }), mesh);
+    mesh         = split_into_blocks(data, along({ "bed" }));
     report       = make_mesh_report(mesh);
     rank_of_cell = partition_cells(mesh, { false, false }, n_ranks);
   }
@@ -690,7 +678,7 @@ TEST(SpaceMeshOfRanks, MixedTetrahedraStayWhole)
   if (this_mpi_process(MPI_COMM_WORLD) == 0)
   {
     make_mixed(data);
-    split_into_blocks(data, {}, mesh);
+    mesh = split_into_blocks(data, {});
     rank_of_cell
         = partition_cells(mesh, { false }, n_mpi_processes(MPI_COMM_WORLD));
   }

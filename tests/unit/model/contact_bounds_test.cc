@@ -34,9 +34,7 @@ namespace
     }
     static BlockMesh<2> mesh()
     {
-      BlockMesh<2> result;
-      make_stack(result, 2, 2);
-      return result;
+      return make_stack(2, 2);
     }
     static ModelParameters parameters(const double joint, const double lower,
                                       const double both, const double upper)

@@ -11,7 +11,7 @@ using namespace quoin::test;
 namespace
 {
   /** make_stack() and, apart from it, a block "loose" from (5, 0) to (6, 1). */
-  void make_stack_and_block(BlockMesh<2> &mesh)
+  BlockMesh<2> make_stack_and_block()
   {
     MeshData<2> data;
     for (const unsigned int i : { 0U, 1U })
@@ -22,7 +22,7 @@ namespace
     add_grid(data, 1, 1, "loose", 5., 0.);
     add_curve(data, "foot", 5., 0., 6., 0.);
     add_curve(data, "top", 5., 1., 6., 1.);
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   ModelParameters three_blocks()
@@ -36,9 +36,7 @@ namespace
   pushed(const std::vector<LoadParameters> &loads,
          const std::vector<std::string> &names)
   {
-    BlockMesh<2> mesh;
-    make_stack_and_block(mesh);
-    TestRun run(mesh, three_blocks(), loads);
+    TestRun run(make_stack_and_block(), three_blocks(), loads);
     const StageParameters stage = stage_with(names);
     run.begin(stage);
     return run.solver.stage_loads().unsupported_bodies(run.model, stage,
@@ -117,9 +115,7 @@ TEST(FreeBodies, DashpotsHoldInMotionButNotAtRest)
           gravity("0", "-9.81") };
   EXPECT_TRUE(pushed(loads, { "base", "dashpots", "gravity" }).empty());
 
-  BlockMesh<2> mesh;
-  make_stack_and_block(mesh);
-  TestRun run(mesh, three_blocks(), loads);
+  TestRun run(make_stack_and_block(), three_blocks(), loads);
   StageParameters stage = stage_with({ "base", "dashpots", "gravity" });
   stage.end             = StageEnd::static_ratio;
   EXPECT_THROW(run.begin(stage), InputError);

@@ -19,8 +19,7 @@ namespace
   using Outside = ContactParameters::Outside;
 
   /** The stack without a joint, the upper block higher and to the right. */
-  void make_parted_stack(BlockMesh<2> &mesh, const double gap,
-                         const double right = 0.)
+  BlockMesh<2> make_parted_stack(const double gap, const double right = 0.)
   {
     MeshData<2> data;
     add_grid(data, 2, 1, "lower", 0., 0.);
@@ -28,7 +27,7 @@ namespace
     add_grid(data, 2, 2, "upper", 0., 1.);
     for (unsigned int v = n; v < data.vertices.size(); ++v)
       data.vertices[v] += dealii::Point<2>(right, gap);
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   JointSetParameters touching()
@@ -129,13 +128,12 @@ TEST(ModelBox, DeletedBlockTakesItsEnergyAlong)
 {
   for (const std::string kind : { "elastic", "yielding", "rigid" })
   {
-    BlockMesh<2> mesh;
-    make_parted_stack(mesh, 0.2);
     ModelParameters parameters
         = in_box({ { -1., -1., 3., 6. } }, Outside::remove, kind == "rigid");
     if (kind == "yielding")
       parameters.materials[1].strength = MohrCoulombStrength{ 1e5, 0., 0. };
-    TestRun run(mesh, parameters, { held("lower"), gravity("0", "-9.81") });
+    TestRun run(make_parted_stack(0.2), parameters,
+                { held("lower"), gravity("0", "-9.81") });
     run.begin(stage_with({ "held", "gravity" }), 0.5);
     throw_upper(run, 1., 20., 2.);
     run.solver.step(run.state, { true, false });
@@ -179,10 +177,8 @@ TEST(ModelBox, DeletedBlockTouchesNothing)
   // The upper block is pressed into the lower one, which is deleted.
   for (const bool rigid : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_parted_stack(mesh, -1e-4, 0.3);
-    TestRun run(mesh, in_box({ { -1., 0.5, 3., 9. } }, Outside::remove, rigid),
-                {});
+    TestRun run(make_parted_stack(-1e-4, 0.3),
+                in_box({ { -1., 0.5, 3., 9. } }, Outside::remove, rigid), {});
     // What contacts did in the half step before is lost: a short one.
     run.begin(stage_with({}), 0.02);
     run.solver.step(run.state, { true, true });
@@ -219,8 +215,7 @@ TEST(ModelBox, DeletedBlockTouchesNothing)
 
 TEST(ModelBox, JointedBlocksLeaveTogether)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   ModelParameters parameters
       = in_box({ { -1., -1., 3., 2.5 } }, Outside::remove);
   parameters.joints.push_back(elastic_joint(2e10, 1e10));
@@ -236,7 +231,7 @@ TEST(ModelBox, JointedBlocksLeaveTogether)
   EXPECT_TRUE(step_and_check(run).empty());
 
   // A strained joint: its energy goes, too.
-  run.state.nodes[run.mesh.block_first_vertex[1]].u[1] += 1e-4;
+  run.state.nodes[mesh.block_first_vertex[1]].u[1] += 1e-4;
   shift(run, 2.5);
   found = step_and_check(run);
   ASSERT_EQ(found.size(), 2U);
@@ -249,8 +244,7 @@ TEST(ModelBox, JointedBlocksLeaveTogether)
 
 TEST(ModelBox, BlocksThatLoadsMoveStay)
 {
-  BlockMesh<2> mesh;
-  make_parted_stack(mesh, 0.2);
+  BlockMesh<2> mesh                       = make_parted_stack(0.2);
   const std::vector<LoadParameters> loads = { held("upper") };
   TestRun run(mesh, in_box({ { -1., -1., 3., 2.5 } }, Outside::remove), loads);
   run.begin(stage_with({ "held" }), 0.5);
@@ -285,8 +279,7 @@ TEST(ModelBox, DeletedBlocksStayDeletedInTheNextStageAndWhenResumed)
 {
   for (const bool rigid : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_parted_stack(mesh, 0.2);
+    BlockMesh<2> mesh = make_parted_stack(0.2);
     const auto parameters
         = in_box({ { -1., -1., 3., 3.4 } }, Outside::remove, rigid);
     const std::vector<LoadParameters> loads
@@ -323,8 +316,7 @@ TEST(ModelBox, DeletedBlocksStayDeletedInTheNextStageAndWhenResumed)
 
 TEST(ModelBox, DeletedBlocksAreNotWritten)
 {
-  BlockMesh<2> mesh;
-  make_parted_stack(mesh, 0.2);
+  BlockMesh<2> mesh = make_parted_stack(0.2);
   TestRun run(mesh, in_box({ { -1., 0.5, 3., 9. } }, Outside::remove), {});
   run.begin(stage_with({}), 0.5);
   shift(run, -0.6);
@@ -353,9 +345,8 @@ TEST(ModelBox, DeletedBlocksAreNotWritten)
 
 TEST(ModelBox, ReportsOnceAndGoesOn)
 {
-  BlockMesh<2> mesh;
-  make_parted_stack(mesh, 0.2);
-  TestRun run(mesh, in_box({ { -1., -1., 3., 4. } }, Outside::report),
+  TestRun run(make_parted_stack(0.2),
+              in_box({ { -1., -1., 3., 4. } }, Outside::report),
               { held("lower") });
   run.begin(stage_with({ "held" }), 0.5);
   throw_upper(run, 0., 20., 0.);
@@ -370,9 +361,8 @@ TEST(ModelBox, ReportsOnceAndGoesOn)
 
 TEST(ModelBox, StopsIfAsked)
 {
-  BlockMesh<2> mesh;
-  make_parted_stack(mesh, 0.2);
-  TestRun run(mesh, in_box({ { -1., -1., 3., 4. } }, Outside::stop),
+  TestRun run(make_parted_stack(0.2),
+              in_box({ { -1., -1., 3., 4. } }, Outside::stop),
               { held("lower") });
   run.begin(stage_with({ "held" }), 0.5);
   throw_upper(run, 0., 20., 0.);
@@ -383,8 +373,7 @@ TEST(ModelBox, StopsIfAsked)
 
 TEST(ModelBox, MustHoldTheModelAtFirst)
 {
-  BlockMesh<2> mesh;
-  make_parted_stack(mesh, 0.2);
+  BlockMesh<2> mesh = make_parted_stack(0.2);
   expect_words(
       message_of<InputError>(
           [&]() {
@@ -399,8 +388,7 @@ TEST(ModelBox, CellsInsideOutAreFound)
 {
   for (const bool large : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 2, 2);
+    BlockMesh<2> mesh          = make_stack(2, 2);
     ModelParameters parameters = two_blocks();
     if (large)
     {
@@ -430,8 +418,7 @@ TEST(ModelBox, CellsInsideOutAreFound)
 
 TEST(ModelBox, CellsInsideOutAreOfTheMeshOrOfTheLoads)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   TestRun run(mesh, two_blocks(), {});
   run.begin(stage_with({}), 0.1);
   const unsigned int corner = run.node(2., 0.);
@@ -462,9 +449,7 @@ TEST(ModelBox, CellsInsideOutAreOfTheMeshOrOfTheLoads)
 
 TEST(ModelBox, TheNodeThatMovedFarthest)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(2, 2), two_blocks(), {});
   run.begin(stage_with({}), 0.1);
   EXPECT_EQ(farthest_node(run.model, run.state).distance, 0.);
   const unsigned int far = run.node(2., 4.), near = run.node(0., 0.);

@@ -33,8 +33,7 @@ namespace
 
 TEST(Model, LumpsAThirdOfEachCell)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
+  BlockMesh<2> mesh          = make_stack(1, 1);
   ModelParameters parameters = two_blocks();
   parameters.materials = { material("upper", 3000.), material("lower", 1200.) };
   const TestNodes nodes(mesh);
@@ -60,8 +59,7 @@ TEST(Model, LumpsAThirdOfEachCell)
 
 TEST(Model, ImpedanceOfWaves)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
+  BlockMesh<2> mesh = make_stack(1, 1);
   const double rho = 2500., E = 1e10, nu = 0.2;
   for (const bool strain : { true, false })
   {
@@ -82,8 +80,7 @@ TEST(Model, ImpedanceOfWaves)
 
 TEST(Model, StartsAtRestInPlace)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
+  BlockMesh<2> mesh = make_stack(2, 1);
   const TestNodes nodes(mesh);
   const Model<2> model(nodes, two_blocks());
   const State<2> state = model.initial_state();
@@ -106,8 +103,7 @@ TEST(Model, InitialStressInEquilibriumStaysAtRest)
 {
   // Uniform stress, held by the tractions that belong to it. The joint is
   // elastic, so that it may take what it gets.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  BlockMesh<2> mesh           = make_stack(2, 2);
   ModelParameters parameters  = two_blocks();
   parameters.initial_stresses = { initial_stress({ { -1e6, -2e6, 0. } }, {}) };
   TestRun run(mesh, parameters,
@@ -132,8 +128,7 @@ TEST(Model, InitialStressInEquilibriumStaysAtRest)
 
 TEST(Model, InitialStressOfAGroupAndWithDepth)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
+  BlockMesh<2> mesh          = make_stack(1, 1);
   ModelParameters parameters = two_blocks();
   parameters.initial_stresses
       = { initial_stress({ { 0., -1e6, 0. } }, { { 0., 3e5, 0. } }),
@@ -162,8 +157,7 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
 
 TEST(Model, InitialStressOutOfThePlane)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
+  BlockMesh<2> mesh          = make_stack(1, 1);
   ModelParameters parameters = two_blocks();
   parameters.plane           = PlaneAssumption::plane_strain;
   parameters.initial_stresses
@@ -195,8 +189,7 @@ TEST(Model, InitialStressOutOfThePlane)
 
 TEST(Model, RefusesGroupsWithoutMaterialAndJointsWithoutSet)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 1, 1);
+  BlockMesh<2> mesh          = make_stack(1, 1);
   ModelParameters parameters = two_blocks();
   parameters.materials       = { material("lower") };
   expect_input_error([&] { make_model(mesh, parameters); },

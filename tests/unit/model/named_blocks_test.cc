@@ -32,9 +32,7 @@ namespace
   /** What is said of @p blocks in a stack of two of 3 m x 2 m. */
   std::string refusal(std::vector<NamedBlock> blocks)
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
-    const TestNodes nodes(mesh);
+    const TestNodes nodes(make_stack(3, 2));
     return message_of<InputError>([&] { find_named_blocks(nodes, blocks); });
   }
 
@@ -48,9 +46,7 @@ namespace
 
 TEST(NamedBlocks, AreFoundByPointAndBySurface)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  const TestNodes nodes(mesh);
+  const TestNodes nodes(make_stack(3, 2));
   // the second point is on an edge between two cells of its block
   std::vector<NamedBlock> blocks = { at("a", 0.1, 3.9), of("b", "lower") };
   find_named_blocks(nodes, blocks);
@@ -71,11 +67,10 @@ TEST(NamedBlocks, AreOneBlockEach)
                { "Blocks/key", "'middle'", "lower, upper" });
   expect_words(refusal({ at("key", 1., 1.5), of("stone", "lower") }),
                { "Blocks/stone", "'key' already" });
-  BlockMesh<2> mesh;
   MeshData<2> data;
   for (const double x : { 0., 2. })
     add_grid(data, 1, 1, "stones", x, 0.);
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   const TestNodes nodes(mesh);
   std::vector<NamedBlock> two = { of("key", "stones") };
   expect_words(message_of<InputError>([&] { find_named_blocks(nodes, two); }),
@@ -88,8 +83,7 @@ TEST(NamedBlocks, InertiaOfADeformableAndARigidBlock)
   const double mass = 2500. * 3. * 2. * 0.5;
   for (const bool rigid : { false, true })
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
+    BlockMesh<2> mesh          = make_stack(3, 2);
     ModelParameters parameters = two_blocks();
     for (MaterialParameters &stone : parameters.materials)
       stone.rigid = rigid;

@@ -29,8 +29,7 @@ namespace
 
     static BlockMesh<2> mesh(const bool quadratic)
     {
-      BlockMesh<2> result;
-      make_stack(result, 3, 2, quadratic);
+      BlockMesh<2> result = make_stack(3, 2, quadratic);
       for (auto &p : result.vertices)
         p = { p[0] + 0.2 * p[1], p[1] };
       return result;

@@ -21,8 +21,8 @@ namespace quoin::test
    * with a joint on the curve "joint" between them, and the curves "bottom",
    * "top" and "sides".
    */
-  inline void make_stack(BlockMesh<2> &mesh, const unsigned int nx,
-                         const unsigned int ny, const bool quadratic = false)
+  inline BlockMesh<2> make_stack(const unsigned int nx, const unsigned int ny,
+                                 const bool quadratic = false)
   {
     MeshData<2> data;
     for (const unsigned int i : { 0U, 1U })
@@ -36,7 +36,7 @@ namespace quoin::test
         add_curve(data, "top", 0., y1, nx, y1);
     }
     data.quadratic = quadratic;
-    split_into_blocks(data, {}, mesh);
+    return split_into_blocks(data, {});
   }
 
   inline MaterialParameters material(const std::string &group,
@@ -165,7 +165,6 @@ namespace quoin::test
   /** A model of one rank with its solver, ready to step. */
   struct TestRun
   {
-    const BlockMesh<2> &mesh;
     TestNodes nodes;
     Model<2> model;
     ExplicitSolver<2> solver;
@@ -173,7 +172,7 @@ namespace quoin::test
 
     TestRun(const BlockMesh<2> &mesh, const ModelParameters &parameters,
             const std::vector<LoadParameters> &loads)
-      : mesh(mesh), nodes(mesh, parameters.materials), model(nodes, parameters),
+      : nodes(mesh, parameters.materials), model(nodes, parameters),
         solver(model, loads), state(model.initial_state())
     {
     }

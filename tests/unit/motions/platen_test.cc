@@ -158,8 +158,7 @@ TEST(Platen, TheMiddleOfABoundaryIsThatOfItsArea)
   test::add_curve(data, "bottom", 0., 0., 1., 0.);
   test::add_grid(data, 1, 1, "thick", 1., 0.);
   test::add_curve(data, "bottom", 1., 0., 2., 0.);
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh = split_into_blocks(data, {});
   const test::TestNodes nodes(mesh);
   const LoadParameters load = HeldBlock::parameters({}, {}, {}, "bottom");
   const auto found          = platen_nodes<2>(load, nodes);

@@ -44,9 +44,7 @@ TEST(CostEstimate, FieldsAreAsLargeAsTheyAreWritten)
       law.normal_stiffness = law.shear_stiffness = 1e10;
       parameters.joints[0].law                   = law;
     }
-    BlockMesh<2> mesh;
-    make_stack(mesh, 60, 40);
-    const TestNodes nodes(mesh);
+    const TestNodes nodes(make_stack(60, 40));
     const Model<2> model(nodes, parameters);
     const TemporaryDirectory directory;
     BlockOutput blocks(directory.path(), MPI_COMM_SELF);

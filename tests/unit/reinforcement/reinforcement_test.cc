@@ -18,7 +18,7 @@ namespace
   /** A bar through two blocks of 2 x 2 m, and a dowel in their joint. */
   struct BarInBlocks
   {
-    BlockMesh<2> mesh;
+    BlockMesh<2> mesh = make_stack(2, 2);
     std::unique_ptr<BlockTriangulation<2>> blocks;
     std::unique_ptr<NodeMap<2>> nodes;
     std::unique_ptr<Model<2>> model;
@@ -26,7 +26,6 @@ namespace
 
     BarInBlocks()
     {
-      make_stack(mesh, 2, 2);
       CableParameters cable;
       cable.element_length      = 0.25;
       cable.name                = "bar";
@@ -213,8 +212,7 @@ TEST(Reinforcement, ShearForceOfAnElementIsThatOfItsLargestDowel)
     if (i > 0)
       add_curve(data, "joint", 0., i, 2., i);
   }
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  BlockMesh<2> mesh  = split_into_blocks(data, {});
   const BarEnds ends = { { { 1.2, 2.8 }, { 1.2, 0.3 } } };
   CableParameters cable;
   cable.name                = "bar";

@@ -68,9 +68,7 @@ namespace
 
 TEST(BlockHistories, RotationCountsTurnsOfADeformableBlock)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   std::vector<HistoryParameters> columns;
   add(columns, moves, "b");
@@ -95,9 +93,7 @@ TEST(BlockHistories, RotationCountsTurnsOfADeformableBlock)
 
 TEST(BlockHistories, MotionDoesNotDependOnADensityThatChanges)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   std::vector<HistoryParameters> columns;
   add(columns, moves, "b");
@@ -121,9 +117,7 @@ TEST(BlockHistories, MotionDoesNotDependOnADensityThatChanges)
 
 TEST(BlockHistories, VelocitiesLieBetweenThoseOfTheStepsBesideThem)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   std::vector<HistoryParameters> columns;
   add(columns, velocity, "b");
@@ -145,9 +139,7 @@ TEST(BlockHistories, VelocitiesLieBetweenThoseOfTheStepsBesideThem)
 
 TEST(BlockHistories, ForceOfJointsWhereTheyWere)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   std::vector<HistoryParameters> columns;
   add(columns, force, "a", "b");
@@ -193,9 +185,7 @@ TEST(BlockHistories, ForceOfJointsWhereTheyWere)
 
 TEST(BlockHistories, HaveNoValueOfADeletedBlock)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   std::vector<HistoryParameters> columns;
   add(columns, moves, "a");

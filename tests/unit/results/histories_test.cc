@@ -29,8 +29,7 @@ namespace
   std::vector<double> velocities(const std::vector<HistoryParameters> &points,
                                  const bool upper_first)
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
+    BlockMesh<2> mesh = make_stack(3, 2);
     if (upper_first)
       renumber_blocks(mesh, { 1, 0 });
     TestRun run(mesh, two_blocks(), {});
@@ -65,9 +64,7 @@ TEST(Histories, AtAJointTheyAreOfOneBlockWhateverTheNumbers)
 TEST(Histories, OnAWallTheyAreOfTheBlockThatIsThereLonger)
 {
   using Q = HistoryQuantity;
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   HistoryParameters wanted;
   // Absent in the end, and placed by a stage.
   for (const double missing : { 2.5, 0.5 })
@@ -184,9 +181,7 @@ namespace
 TEST(Histories, QuantitiesOfTwoPointsFollowTheMotionOfBoth)
 {
   using Q = HistoryQuantity;
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   // The line from (0, 0) to (3, 4), 5 m, is turned by 30 degrees,
   // anticlockwise, and becomes 1.2 times as long.
@@ -220,9 +215,7 @@ TEST(Histories, QuantitiesOfTwoPointsFollowTheMotionOfBoth)
 
 TEST(Histories, PointsOutsideOfBlocksAreNamed)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   for (const double x : { 0.25, -0.25 })
   {
@@ -241,8 +234,7 @@ TEST(Histories, PointsOutsideOfBlocksAreNamed)
 
 TEST(Histories, JointsOnNoNamedCurve)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  BlockMesh<2> mesh = make_stack(3, 2);
   for (JointFace<2> &face : mesh.joint_faces)
     face.name = 0;
   ModelParameters parameters  = two_blocks();
@@ -260,9 +252,7 @@ TEST(Histories, JointsOnNoNamedCurve)
 
 TEST(Histories, LengthOfOpenJoints)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   const auto open = [&]()
   { return row_of({ history(HistoryQuantity::open_joints) }, run)[1]; };
@@ -286,8 +276,7 @@ TEST(Histories, OfJointsGoOnWhenTheyHaveBecomeContacts)
   const std::array<double, 3> middle = { { 1., 2., 0. } };
   const auto row                     = [&](const bool large, const double up)
   {
-    BlockMesh<2> mesh;
-    make_stack(mesh, 3, 2);
+    BlockMesh<2> mesh                      = make_stack(3, 2);
     ModelParameters parameters             = two_blocks();
     JointSetParameters &joint              = parameters.joints[0];
     joint.all_new_contacts                 = true;
@@ -338,9 +327,7 @@ TEST(Histories, OfJointsGoOnWhenTheyHaveBecomeContacts)
 TEST(Histories, OfTwoPointsAreZeroWhereOneIsInABlockThatIsNotThere)
 {
   using Q = HistoryQuantity;
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   for (NodeRecord<2> &node : run.state.nodes)
     node.u = dealii::Point<2>(0.1 + 0.01 * node.X[1], 0.2 * node.X[0]);
@@ -368,9 +355,7 @@ TEST(Histories, OfTwoPointsAreZeroWhereOneIsInABlockThatIsNotThere)
 TEST(Histories, HaveNoValueInADeletedBlock)
 {
   using Q = HistoryQuantity;
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  TestRun run(mesh, two_blocks(), {});
+  TestRun run(make_stack(3, 2), two_blocks(), {});
   run.begin(stage_with({}));
   const std::array<double, 3> below = { { 0., 0., 0. } },
                               above = { { 0., 4., 0. } };

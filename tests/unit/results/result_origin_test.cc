@@ -19,17 +19,10 @@ namespace
       moved by 0.25 m to the right. */
   struct MovedBlocks
   {
-    MovedBlocks() : mesh(stack()), run(mesh, two_blocks(), {}), state(run.state)
+    MovedBlocks() : run(make_stack(3, 2), two_blocks(), {}), state(run.state)
     {
       state.add<ResultOrigin<2>>();
       move(0.25);
-    }
-
-    static BlockMesh<2> stack()
-    {
-      BlockMesh<2> mesh;
-      make_stack(mesh, 3, 2);
-      return mesh;
     }
 
     void move(const double to)
@@ -56,7 +49,6 @@ namespace
       return result;
     }
 
-    BlockMesh<2> mesh;
     TestRun run;
     State<2> &state;
   };

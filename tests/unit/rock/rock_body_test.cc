@@ -99,9 +99,8 @@ namespace
              / 6.;
     SplitOptions options;
     options.joints_along = geometry.joint_curves;
-    BlockMesh<3> blocks;
-    split_into_blocks(mesh, options, blocks);
-    result.n_blocks = blocks.n_blocks();
+    BlockMesh<3> blocks  = split_into_blocks(mesh, options);
+    result.n_blocks      = blocks.n_blocks();
     return result;
   }
 

@@ -243,8 +243,7 @@ TEST(RockBox, MeshesIntoBlocksWithTheJointsOfItsFaces)
     }
     const SpacePoint size(rock.high);
     EXPECT_NEAR(volume, size[0] * size[1] * size[2], 1e-8);
-    BlockMesh<3> blocks;
-    split_into_blocks(mesh, options, blocks);
+    BlockMesh<3> blocks = split_into_blocks(mesh, options);
     EXPECT_EQ(blocks.n_blocks(), box.pieces.n_blocks());
   }
 }

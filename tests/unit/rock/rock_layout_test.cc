@@ -401,9 +401,8 @@ TEST(RockGeometry, borders_that_a_body_and_a_hole_share)
     EXPECT_EQ(geometry.joint_curves, std::vector<std::string>{ "slab" });
     SplitOptions options;
     options.joints_along = geometry.joint_curves;
-    BlockMesh<2> mesh;
-    split_into_blocks(mesh_gmsh_geometry(geometry.text, "rock", MPI_COMM_SELF),
-                      options, mesh);
+    BlockMesh<2> mesh    = split_into_blocks(
+           mesh_gmsh_geometry(geometry.text, "rock", MPI_COMM_SELF), options);
     EXPECT_EQ(mesh.n_blocks(), 2u);
     // The hole's walls go round it, on whatever they are.
     double length = 0.;
@@ -435,9 +434,8 @@ TEST(RockGeometry, gmsh_makes_the_blocks_of_the_layout)
     const GmshGeometry geometry = rock_geometry(rock, layout);
     SplitOptions options;
     options.joints_along = geometry.joint_curves;
-    BlockMesh<2> mesh;
-    split_into_blocks(mesh_gmsh_geometry(geometry.text, "rock", MPI_COMM_SELF),
-                      options, mesh);
+    BlockMesh<2> mesh    = split_into_blocks(
+           mesh_gmsh_geometry(geometry.text, "rock", MPI_COMM_SELF), options);
     EXPECT_EQ(mesh.n_blocks(), layout.n_blocks());
     double area = 0.;
     for (const auto &cell : mesh.cells)
