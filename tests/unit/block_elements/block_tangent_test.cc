@@ -99,8 +99,7 @@ TEST(BlockTangent, ForcesAreThoseOfTheLanes)
         RandomBlocks mesh = plastic ? plastic_block(plane, false, 0.)
                                     : elastic_block(plane, false, 7);
         mesh.add_initial_stress(5e5);
-        BlockForces<2> blocks;
-        blocks.prepare(mesh.data);
+        BlockForces<2> blocks = mesh.prepared();
         PlasticHistory a = initial_history(blocks), b = a;
         for (const double strain : { 5e-4, 1.5e-3 })
         {
@@ -129,8 +128,7 @@ TEST(BlockTangent, ElasticStiffnessIsTheDerivativeOfTheForces)
       {
         RandomBlocks mesh = elastic_block(plane, quadratic);
         mesh.add_initial_stress(2e9); // so that the geometric part counts
-        BlockForces<2> blocks;
-        blocks.prepare(mesh.data);
+        BlockForces<2> blocks = mesh.prepared();
         mesh.deform(0.08, angle);
         PlasticHistory none;
         Matrix stiffness;
@@ -155,8 +153,7 @@ TEST(BlockTangent, ForcesAreMinusTheGradientOfTheEnergy)
     {
       RandomBlocks mesh = elastic_block(plane, quadratic);
       mesh.add_initial_stress(2e8);
-      BlockForces<2> blocks;
-      blocks.prepare(mesh.data);
+      BlockForces<2> blocks = mesh.prepared();
       mesh.deform(0.05, -2.4);
       PlasticHistory none;
       const Vector force = linearised(blocks, mesh.nodes, none);
@@ -181,8 +178,7 @@ TEST(BlockTangent, PlasticStiffnessIsTheDerivativeOfTheForces)
       {
         RandomBlocks mesh = plastic_block(plane, quadratic, dilation);
         mesh.add_initial_stress(5e5);
-        BlockForces<2> blocks;
-        blocks.prepare(mesh.data);
+        BlockForces<2> blocks  = mesh.prepared();
         PlasticHistory history = initial_history(blocks);
         mesh.deform(1.2e-4 * size, 1.9); // some cells have yielded before
         linearised(blocks, mesh.nodes, history);
@@ -226,10 +222,9 @@ TEST(BlockTangent, RigidMotionsMakeNoForce)
   for (const bool quadratic : { false, true })
     for (const double angle : { 1e-7, 0.4, 1.5707, 3.14159, -2.5, -0.9 })
     {
-      RandomBlocks mesh = plastic_block(PlaneAssumption::plane_strain,
-                                        quadratic, 10. * degree);
-      BlockForces<2> blocks;
-      blocks.prepare(mesh.data);
+      RandomBlocks mesh      = plastic_block(PlaneAssumption::plane_strain,
+                                             quadratic, 10. * degree);
+      BlockForces<2> blocks  = mesh.prepared();
       PlasticHistory history = initial_history(blocks);
       mesh.move_rigidly(angle, 1.7, -2.3);
       Matrix stiffness;
@@ -257,8 +252,7 @@ TEST(BlockTangent, ForcesTurnWithTheBody)
   {
     RandomBlocks mesh = elastic_block(PlaneAssumption::plane_stress, quadratic);
     mesh.add_initial_stress(1e9);
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<2> blocks = mesh.prepared();
     mesh.deform(0.04, 0.7);
     PlasticHistory none;
     Matrix stiffness;

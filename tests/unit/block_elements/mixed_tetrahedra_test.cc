@@ -163,8 +163,7 @@ namespace
 TEST(MixedTetrahedra, RigidMotionMakesNoForce)
 {
   TetrahedronBlocks mesh = assorted_blocks();
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks  = mesh.prepared();
   for (const double angle : { 1e-6, 0.3, 1.5707, 3.1415926535897931, -2.5 })
   {
     mesh.displace(rotation(angle, { 1., -2., 0.5 }), { 0.7, -1.3, 4. });
@@ -179,8 +178,7 @@ TEST(MixedTetrahedra, UniformStrainPatch)
     for (const double size : { 1e-6, 0.05 })
     {
       TetrahedronBlocks mesh = one_box({ 3, 3, 2 }, 0.3);
-      BlockForces<3> blocks;
-      blocks.prepare(mesh.data);
+      BlockForces<3> blocks  = mesh.prepared();
       Matrix3d e;
       e << 1., 0.4, -0.3, 0.4, -0.5, 0.2, -0.3, 0.2, 0.7;
       e *= size;
@@ -221,8 +219,7 @@ TEST(MixedTetrahedra, MeanStressIsSharedAndTheRestIsNot)
 {
   TetrahedronBlocks mesh = one_box({ 2, 1, 1 }, 0.);
   mesh.add_initial_stress(1e8);
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks = mesh.prepared();
   mesh.displace(rotation(0.7, { 1., 1., -0.3 }));
   mesh.disturb(0.01);
   const double mu   = mesh.data.stiffness[0].mu,
@@ -267,8 +264,7 @@ TEST(MixedTetrahedra, LanesAgreeWithCells)
           options.n_lanes       = n_lanes;
           options.tile_bytes    = tile_bytes;
           options.max_run_cells = tile_bytes == 1u ? 37 : 4096;
-          BlockForces<3> blocks;
-          blocks.prepare(mesh.data, options);
+          BlockForces<3> blocks = mesh.prepared(options);
           EXPECT_LT(largest_difference(mesh.forces(blocks),
                                        mesh.forces(blocks, true)),
                     1e-12 * stone.young);
@@ -283,8 +279,7 @@ TEST(MixedTetrahedra, ForcesAreThoseOfTheEnergy)
     TetrahedronBlocks mesh = one_box({ 1, 1, 1 }, 0.);
     if (with_stress)
       mesh.add_initial_stress(5e9);
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<3> blocks = mesh.prepared();
     EXPECT_NEAR(strain_energy(blocks, mesh.nodes.data(), {}), 0.,
                 1e-15 * stone.young);
     mesh.displace(rotation(0.8, { 0.2, 1., 1. }));
@@ -314,8 +309,7 @@ TEST(MixedTetrahedra, StiffnessIsTheDerivativeOfTheForces)
     TetrahedronBlocks mesh = one_box({ 1, 1, 1 }, 0.);
     if (with_stress)
       mesh.add_initial_stress(5e9);
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<3> blocks = mesh.prepared();
     mesh.displace(rotation(0.8, { 0.2, 1., 1. }));
     mesh.disturb(0.02);
     PlasticHistory none;
@@ -344,8 +338,7 @@ TEST(MixedTetrahedra, StiffnessIsTheDerivativeOfTheForces)
 TEST(MixedTetrahedra, DampingIsThatOfTheStiffness)
 {
   TetrahedronBlocks mesh = one_box({ 2, 2, 1 }, 0.2);
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks  = mesh.prepared();
   PlasticHistory none;
   const Linearised at_rest(blocks, mesh, none);
   const double beta = 1e-3;
@@ -369,8 +362,7 @@ TEST(MixedTetrahedra, BoundOfTheStepHolds)
   {
     TetrahedronBlocks mesh
         = one_box({ 2, 1, 2 }, 0., LinearElastic{ 2700., 30e9, poisson });
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<3> blocks = mesh.prepared();
     PlasticHistory none;
     const Linearised at_rest(blocks, mesh, none);
     State<3> state;
@@ -405,9 +397,8 @@ namespace
   {
     TetrahedronBlocks mesh
         = one_box({ 3, 3, 3 }, 0., LinearElastic{ 2700., 1., poisson });
-    mesh.data.mixed = mixed;
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
+    mesh.data.mixed        = mixed;
+    BlockForces<3> blocks  = mesh.prepared();
     const double extent[3] = { 1., 0.8, 1.2 }, curvature = 1e-6;
     const unsigned int n = 3 * mesh.nodes.size();
     std::vector<unsigned int> free;
@@ -487,8 +478,7 @@ TEST(MixedTetrahedra, YieldingLanesAgreeWithSingleCells)
     mesh.data.laws[0].emplace(stone, MohrCoulombStrength{ 2e6, 0.6, 0.2, 1e6 });
     if (with_stress)
       mesh.add_initial_stress(1e6);
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<3> blocks = mesh.prepared();
     PlasticHistory a = initial_history(blocks), b = a, c = a;
     for (unsigned int step = 0; step < 4; ++step)
     {
@@ -659,8 +649,7 @@ TEST(MixedTetrahedra, FlowKeepsTheEnergyBalance)
   TetrahedronBlocks mesh = one_box({ 1, 1, 1 }, 0.);
   mesh.data.laws.resize(1);
   mesh.data.laws[0].emplace(stone, MohrCoulombStrength{ 2e6, 0.6, 0.2, 1e6 });
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks  = mesh.prepared();
   PlasticHistory history = initial_history(blocks);
   mesh.disturb(1e-4);
   const auto end       = mesh.nodes;

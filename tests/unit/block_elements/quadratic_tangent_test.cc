@@ -135,8 +135,7 @@ TEST(QuadraticTangent, QuadraticFieldsAreIntegratedExactly)
           u[0] = field.value(0, x, y);
           u[1] = field.value(1, x, y);
         });
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<2> blocks = mesh.prepared();
     PlasticHistory none;
     const Vector force   = linearised(blocks, mesh.nodes, none);
     const Integrals want = integrate(mesh, field);
@@ -181,8 +180,7 @@ TEST(QuadraticTangent, LinearFieldsPullAtTheEdgesAlone)
           u[0] = c * a - s * b - x;
           u[1] = s * a + c * b - y;
         });
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<2> blocks = mesh.prepared();
     PlasticHistory none;
     const Vector force   = linearised(blocks, mesh.nodes, none);
     const PlaneTensor S  = elastic_stress(mesh.data.stiffness[0], e);

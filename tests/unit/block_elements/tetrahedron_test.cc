@@ -141,9 +141,8 @@ TEST(Tetrahedron, LargestFrequencyOfOneElement)
     const LinearElastic material{ 2000., 1e9, poisson };
     TetrahedronBlocks mesh;
     mesh.add_box({ 2, 2, 2 }, { 1., 1.5, 0.6 }, Vector3d::Zero(), 0.3);
-    mesh.data.stiffness = { space_stiffness(material) };
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
+    mesh.data.stiffness   = { space_stiffness(material) };
+    BlockForces<3> blocks = mesh.prepared();
     for (unsigned int k = 0; k < blocks.cell_data().cells.size(); ++k)
     {
       CellLinearisation cell;

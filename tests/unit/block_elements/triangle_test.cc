@@ -25,8 +25,7 @@ namespace
    */
   double power_iteration(const RandomBlocks &mesh)
   {
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<2> blocks = mesh.prepared();
     std::vector<double> mass(mesh.nodes.size(), 0.);
     for (const auto &[a, b, c] : mesh.data.cells)
     {

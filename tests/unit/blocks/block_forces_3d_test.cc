@@ -82,8 +82,7 @@ namespace
 TEST(BlockForces3, RigidMotionMakesNoForce)
 {
   TetrahedronBlocks mesh = assorted_blocks();
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks  = mesh.prepared();
   for (const double angle : { 1e-6, 0.3, 1.5707, 3.1415926535897931, -2.5 })
   {
     mesh.displace(rotation(angle, { 1., -2., 0.5 }), { 0.7, -1.3, 4. });
@@ -104,8 +103,7 @@ TEST(BlockForces3, SmallStrainsKeepTheirDigits)
     node.u[1] = -0.2e-9 * node.X[1];
     node.u[2] = -0.2e-9 * node.X[2];
   }
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks = mesh.prepared();
   for (unsigned int k = 0; k < blocks.cell_data().cells.size(); ++k)
   {
     const SpaceTensor s = cell_stress(blocks, mesh.nodes.data(), {}, k);
@@ -123,9 +121,8 @@ TEST(BlockForces3, UniformStrainPatch)
     {
       TetrahedronBlocks mesh;
       mesh.add_box({ 5, 4, 3 }, { 2., 1.5, 1. }, Vector3d::Zero(), 0.3);
-      mesh.data.stiffness = { space_stiffness(stone) };
-      BlockForces<3> blocks;
-      blocks.prepare(mesh.data);
+      mesh.data.stiffness   = { space_stiffness(stone) };
+      BlockForces<3> blocks = mesh.prepared();
       Matrix3d e;
       e << 1., 0.4, -0.3, 0.4, -0.5, 0.2, -0.3, 0.2, 0.7;
       e *= size;
@@ -184,8 +181,7 @@ TEST(BlockForces3, LanesAgreeWithCells)
             options.n_lanes       = n_lanes;
             options.tile_bytes    = tile_bytes;
             options.max_run_cells = tile_bytes == 1u ? 37 : 4096;
-            BlockForces<3> blocks;
-            blocks.prepare(mesh.data, options);
+            BlockForces<3> blocks = mesh.prepared(options);
             const Forces3 by_lane = mesh.forces(blocks);
             const Forces3 by_cell = mesh.forces(blocks, true);
             // Both lose to a rotation what its digits are worth, each in its
@@ -206,9 +202,8 @@ TEST(BlockForces3, TilesCoverTheBlocksOnce)
   for (const std::size_t tile_bytes : { 1u, 10000u, 100000000u })
   {
     BlockForcesOptions options;
-    options.tile_bytes = tile_bytes;
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data, options);
+    options.tile_bytes    = tile_bytes;
+    BlockForces<3> blocks = mesh.prepared(options);
     std::size_t node = 0, cell = 0;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
     {
@@ -243,8 +238,7 @@ TEST(BlockForces3, CellsMayHaveNodesBehindThoseOfAllBlocks)
   whole.data.stiffness = { space_stiffness(stone) };
   whole.displace(rotation(0.4, { 1., 2., 3. }));
   whole.disturb(1e-3);
-  BlockForces<3> blocks;
-  blocks.prepare(whole.data);
+  BlockForces<3> blocks  = whole.prepared();
   const Forces3 expected = whole.forces(blocks);
 
   TetrahedronBlocks cut;
@@ -307,8 +301,7 @@ TEST(BlockForces3, AreMinusTheGradientOfTheEnergy)
     mesh.data.stiffness = { space_stiffness(stone) };
     if (with_stress)
       mesh.add_initial_stress(3e9);
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<3> blocks = mesh.prepared();
     mesh.displace(rotation(2.1, { 0.2, 1., 1. }));
     mesh.disturb(0.05);
     const Forces3 force = mesh.forces(blocks);
@@ -341,9 +334,8 @@ TEST(BlockForces3, ForcesAndMomentsOfEachBlockSumToZero)
       mesh.add_initial_stress(1e9);
     mesh.displace(rotation(2.7, { 0.2, 1., 1. }));
     mesh.disturb(0.003);
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
-    const Forces3 force = mesh.forces(blocks);
+    BlockForces<3> blocks = mesh.prepared();
+    const Forces3 force   = mesh.forces(blocks);
     const Forces3 viscous
         = viscous_forces(blocks, mesh, random_velocity(mesh), 1e-4);
     for (unsigned int b = 0; b + 1 < mesh.data.block_first_node.size(); ++b)
@@ -367,10 +359,9 @@ TEST(BlockForces3, InitialStressTurnsWithTheBlock)
   s << -3e6, 1e6, 0.5e6, 1e6, -1e6, 0.2e6, 0.5e6, 0.2e6, -2e6;
   for (unsigned int k = 0; k < mesh.data.cells.size(); ++k)
     mesh.data.initial_stress.push_back(components(s));
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
-  const Forces3 before = mesh.forces(blocks);
-  const Matrix3d R     = rotation(1.3, { 1., 1., 0.3 });
+  BlockForces<3> blocks = mesh.prepared();
+  const Forces3 before  = mesh.forces(blocks);
+  const Matrix3d R      = rotation(1.3, { 1., 1., 0.3 });
   mesh.displace(R);
   const Forces3 after = mesh.forces(blocks);
   for (unsigned int i = 0; i < after.size(); ++i)
@@ -387,8 +378,7 @@ TEST(BlockForces3, ViscousForces)
   TetrahedronBlocks mesh = assorted_blocks();
   mesh.displace(rotation(1.7, { 0.2, -1., 1. }));
   mesh.disturb(0.002);
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks  = mesh.prepared();
   const double beta      = 2e-5;
   const Forces3 velocity = random_velocity(mesh);
   const Forces3 force    = viscous_forces(blocks, mesh, velocity, beta);
@@ -429,8 +419,7 @@ TEST(BlockForces3, StiffnessIsTheDerivativeOfTheForces)
     mesh.data.stiffness = { space_stiffness(stone) };
     if (with_stress)
       mesh.add_initial_stress(5e9);
-    BlockForces<3> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<3> blocks = mesh.prepared();
     mesh.displace(rotation(0.8, { 0.2, 1., 1. }));
     mesh.disturb(0.05);
     const unsigned int n = 3 * mesh.nodes.size();
@@ -482,9 +471,8 @@ TEST(BlockForces3, InvertedCellsAreFound)
 {
   TetrahedronBlocks mesh;
   mesh.add_box({ 2, 2, 2 }, { 1., 1., 1. });
-  mesh.data.stiffness = { space_stiffness(stone) };
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  mesh.data.stiffness   = { space_stiffness(stone) };
+  BlockForces<3> blocks = mesh.prepared();
   mesh.displace(rotation(3., { 1., 2., 3. }));
   EXPECT_EQ(first_inverted_cell(blocks, mesh.nodes.data()),
             blocks.cell_data().cells.size());
@@ -515,9 +503,8 @@ TEST(BlockForces3d, YieldingBlocksAgreeWithSingleCells)
       if (with_stress)
         mesh.add_initial_stress(1e6);
       BlockForcesOptions options;
-      options.n_lanes = n_lanes;
-      BlockForces<3> blocks;
-      blocks.prepare(mesh.data, options);
+      options.n_lanes       = n_lanes;
+      BlockForces<3> blocks = mesh.prepared(options);
       PlasticHistory a = initial_history(blocks), b = a;
       for (unsigned int step = 0; step < 4; ++step)
       {
@@ -563,8 +550,7 @@ TEST(BlockForces3d, ForcesOfYieldedCellsAreThoseOfTheirEnergy)
   mesh.data.laws.resize(1);
   mesh.data.laws[0].emplace(stone, MohrCoulombStrength{ 2e6, 0.6, 0.2 });
   mesh.add_initial_stress(5e5);
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks  = mesh.prepared();
   PlasticHistory history = initial_history(blocks);
   mesh.disturb(3e-4);
   EXPECT_GT(blocks.update(mesh.nodes.data(), history), 0.);
@@ -610,8 +596,7 @@ TEST(BlockForces3d, StiffnessOfYieldingCellsIsTheDerivativeOfTheirForces)
   mesh.data.laws.resize(1);
   mesh.data.laws[0].emplace(stone, MohrCoulombStrength{ 2e6, 0.6, 0.2, 1e6 });
   mesh.add_initial_stress(5e5);
-  BlockForces<3> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<3> blocks  = mesh.prepared();
   PlasticHistory history = initial_history(blocks);
   unsigned int n_yielded = 0;
   for (unsigned int step = 0; step < 3; ++step)

@@ -50,23 +50,6 @@ namespace
     return force;
   }
 
-  double largest(const Forces &a)
-  {
-    double max = 0.;
-    for (const dealii::Tensor<1, 2> &f : a)
-      max = std::max({ max, std::abs(f[0]), std::abs(f[1]) });
-    return max;
-  }
-
-  double largest_difference(const Forces &a, const Forces &b)
-  {
-    double max = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        max = std::max(max, std::abs(a[i][d] - b[i][d]));
-    return max;
-  }
-
   double power(const Forces &force, const Forces &velocity)
   {
     double sum = 0.;
@@ -106,9 +89,8 @@ namespace
 
 TEST(BlockForces, RigidMotionMakesNoForce)
 {
-  RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
-  BlockForces<2> blocks;
-  blocks.prepare(mesh.data);
+  RandomBlocks mesh     = assorted_blocks(PlaneAssumption::plane_strain);
+  BlockForces<2> blocks = mesh.prepared();
   for (const double angle : { 1e-6, 0.3, 1.5707, 3.1415926535897931, -2.5 })
   {
     mesh.move_rigidly(angle, 0.7, -1.3);
@@ -132,8 +114,7 @@ TEST(BlockForces, SmallStrainsKeepTheirDigits)
     node.u[0] = 1e-9 * (node.X[0] - 1e4);
     node.u[1] = -0.2e-9 * node.X[1];
   }
-  BlockForces<2> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<2> blocks = mesh.prepared();
   std::vector<std::array<double, 4>> stress;
   std::vector<PlaneTensor> strain;
   cell_stresses(blocks, mesh.nodes.data(), {}, stress, strain);
@@ -162,9 +143,8 @@ TEST(BlockForces, UniformStrainPatch)
           u[0] = exx * x + exy * y;
           u[1] = exy * x + eyy * y;
         });
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data);
-    const Forces force = strip_forces(blocks, mesh);
+    BlockForces<2> blocks = mesh.prepared();
+    const Forces force    = strip_forces(blocks, mesh);
 
     const PlaneStiffness &C = mesh.data.stiffness[0];
     const double sxx        = C.c11 * exx + C.c12 * eyy;
@@ -231,10 +211,9 @@ TEST(BlockForces, StripsAgreeWithCells)
           BlockForcesOptions options = lanes(n_lanes);
           options.tile_bytes         = tile_bytes;
           options.max_run_cells      = tile_bytes == 1u ? 100 : 10000;
-          BlockForces<2> blocks;
-          blocks.prepare(mesh.data, options);
-          const Forces by_strip = strip_forces(blocks, mesh);
-          const Forces by_cell  = cell_forces(blocks, mesh);
+          BlockForces<2> blocks      = mesh.prepared(options);
+          const Forces by_strip      = strip_forces(blocks, mesh);
+          const Forces by_cell       = cell_forces(blocks, mesh);
           EXPECT_LT(largest_difference(by_strip, by_cell),
                     1e-13 * largest(by_cell));
 
@@ -257,9 +236,8 @@ TEST(BlockForces, ForcesAddToWhatIsThere)
 {
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
   mesh.deform(0.01, 0.2);
-  BlockForces<2> blocks;
-  blocks.prepare(mesh.data);
-  Forces twice = strip_forces(blocks, mesh);
+  BlockForces<2> blocks = mesh.prepared();
+  Forces twice          = strip_forces(blocks, mesh);
   PlasticHistory none;
   for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
     blocks.add_forces(tile, mesh.nodes.data(), none, twice.data());
@@ -275,9 +253,8 @@ TEST(BlockForces, TilesCoverTheBlocksOnce)
   for (const std::size_t tile_bytes : { 1u, 20000u, 1000000u })
   {
     BlockForcesOptions options;
-    options.tile_bytes = tile_bytes;
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data, options);
+    options.tile_bytes    = tile_bytes;
+    BlockForces<2> blocks = mesh.prepared(options);
     std::size_t node = 0, cell = 0;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
     {
@@ -314,10 +291,9 @@ TEST(BlockForces, AreMinusTheGradientOfTheEnergy)
     if (with_stress)
       mesh.add_initial_stress(1e9);
     mesh.deform(0.1, 0.9);
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data);
-    const Forces force = strip_forces(blocks, mesh);
-    const double du    = 1e-5;
+    BlockForces<2> blocks = mesh.prepared();
+    const Forces force    = strip_forces(blocks, mesh);
+    const double du       = 1e-5;
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -342,8 +318,7 @@ TEST(BlockForces, ForcesAndMomentsOfEachBlockSumToZero)
     if (with_stress)
       mesh.add_initial_stress(2e9);
     mesh.deform(0.1, -2.);
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<2> blocks = mesh.prepared();
     const Forces force    = strip_forces(blocks, mesh);
     const Forces velocity = mesh.random_velocity();
     const Forces viscous  = viscous_forces(blocks, mesh, velocity);
@@ -381,8 +356,7 @@ TEST(BlockForces, InitialStressTurnsWithTheBlock)
                                   { 3e6, -1e6, 5e5, 4e5 });
   const double angle = 0.6;
   mesh.move_rigidly(angle, 0., 0.);
-  BlockForces<2> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<2> blocks = mesh.prepared();
   std::vector<std::array<double, 4>> stress;
   std::vector<PlaneTensor> strain;
   cell_stresses(blocks, mesh.nodes.data(), {}, stress, strain);
@@ -400,10 +374,9 @@ TEST(BlockForces, ViscousForcesAreLinearAndDissipative)
 {
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
   mesh.deform(0.05, 1.1);
-  BlockForces<2> blocks;
-  blocks.prepare(mesh.data);
-  const Forces a = mesh.random_velocity();
-  const Forces b = mesh.random_velocity();
+  BlockForces<2> blocks = mesh.prepared();
+  const Forces a        = mesh.random_velocity();
+  const Forces b        = mesh.random_velocity();
   Forces sum(a.size());
   for (std::size_t i = 0; i < a.size(); ++i)
     for (unsigned int d = 0; d < 2; ++d)
@@ -422,8 +395,7 @@ TEST(BlockForces, ViscousForcesIgnoreRigidMotion)
 {
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
   mesh.move_rigidly(1.2, 0.4, 0.1);
-  BlockForces<2> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<2> blocks = mesh.prepared();
   Forces velocity(mesh.nodes.size());
   for (std::size_t i = 0; i < velocity.size(); ++i)
   {
@@ -442,8 +414,7 @@ TEST(BlockForces, ViscousForcesAreBetaTimesTheForceRate)
   mesh.add_block(6, 1.);
   mesh.data.stiffness
       = { plane_stiffness(stone, PlaneAssumption::plane_stress) };
-  BlockForces<2> blocks;
-  blocks.prepare(mesh.data);
+  BlockForces<2> blocks = mesh.prepared();
   const Forces velocity = mesh.random_velocity();
   const Forces viscous  = viscous_forces(blocks, mesh, velocity);
   const double dt       = 1e-7;

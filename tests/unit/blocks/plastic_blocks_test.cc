@@ -61,23 +61,6 @@ namespace
     return dissipated;
   }
 
-  double largest(const Forces &a)
-  {
-    double max = 0.;
-    for (const dealii::Tensor<1, 2> &f : a)
-      max = std::max({ max, std::abs(f[0]), std::abs(f[1]) });
-    return max;
-  }
-
-  double largest_difference(const Forces &a, const Forces &b)
-  {
-    double max = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        max = std::max(max, std::abs(a[i][d] - b[i][d]));
-    return max;
-  }
-
   void add_modest_stress(RandomBlocks &mesh, const PlaneAssumption plane)
   {
     mesh.add_initial_stress(1e6);
@@ -100,8 +83,7 @@ TEST(PlasticBlocks, StripsAgreeWithSingleCells)
         BlockForcesOptions options;
         options.n_lanes       = n_lanes;
         options.max_run_cells = 100;
-        BlockForces<2> blocks;
-        blocks.prepare(mesh.data, options);
+        BlockForces<2> blocks = mesh.prepared(options);
         PlasticHistory a = initial_history(blocks), b = a;
         Forces force_a, force_b;
         unsigned int n_yielded = 0;
@@ -166,8 +148,7 @@ TEST(PlasticBlocks, WorkIsStoredOrDissipated)
   {
     RandomBlocks mesh = assorted_blocks(plane);
     add_modest_stress(mesh, plane);
-    BlockForces<2> blocks;
-    blocks.prepare(mesh.data);
+    BlockForces<2> blocks  = mesh.prepared();
     PlasticHistory history = initial_history(blocks);
 
     RandomBlocks aim = mesh;
@@ -209,9 +190,8 @@ TEST(PlasticBlocks, WorkIsStoredOrDissipated)
 
 TEST(PlasticBlocks, TurnWithoutYielding)
 {
-  RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
-  BlockForces<2> blocks;
-  blocks.prepare(mesh.data);
+  RandomBlocks mesh      = assorted_blocks(PlaneAssumption::plane_strain);
+  BlockForces<2> blocks  = mesh.prepared();
   PlasticHistory history = initial_history(blocks);
   Forces force;
   mesh.deform(1e-3, 0.);

@@ -118,6 +118,14 @@ namespace quoin
           u += strain * reach[i] * random();
     }
 
+    BlockForces<2> prepared(const BlockForcesOptions &options
+                            = BlockForcesOptions()) const
+    {
+      BlockForces<2> blocks;
+      blocks.prepare(data, options);
+      return blocks;
+    }
+
     AlignedArray<dealii::Tensor<1, 2>> random_velocity()
     {
       AlignedArray<dealii::Tensor<1, 2>> velocity(nodes.size());
@@ -144,6 +152,24 @@ namespace quoin
 
     std::mt19937 generator;
   };
+
+  inline double largest(const AlignedArray<dealii::Tensor<1, 2>> &a)
+  {
+    double max = 0.;
+    for (const dealii::Tensor<1, 2> &f : a)
+      max = std::max({ max, std::abs(f[0]), std::abs(f[1]) });
+    return max;
+  }
+
+  inline double largest_difference(const AlignedArray<dealii::Tensor<1, 2>> &a,
+                                   const AlignedArray<dealii::Tensor<1, 2>> &b)
+  {
+    double max = 0.;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        max = std::max(max, std::abs(a[i][d] - b[i][d]));
+    return max;
+  }
 } // namespace quoin
 
 #endif

@@ -169,6 +169,14 @@ namespace quoin::test
       }
     }
 
+    BlockForces<3> prepared(const BlockForcesOptions &options
+                            = BlockForcesOptions()) const
+    {
+      BlockForces<3> blocks;
+      blocks.prepare(data, options);
+      return blocks;
+    }
+
     Forces3 zero() const
     {
       return Forces3(nodes.size(), dealii::Tensor<1, 3>());

@@ -108,21 +108,6 @@ namespace
                       a.X[1] + a.u[1] - b.X[1] - b.u[1]);
   }
 
-  double residual_of_steps(TestRun &run, const unsigned int n)
-  {
-    run.solver.step(run.state, { true, false });
-    const double start = run.solver.energies().residual();
-    double largest     = 0.;
-    for (unsigned int i = 1; i < n; ++i)
-    {
-      run.solver.step(run.state, { true, false });
-      const Energies &energies = run.solver.energies();
-      largest = std::max(largest, std::abs(energies.residual() - start)
-                                      / energies.throughput());
-    }
-    return largest;
-  }
-
   /** Force and moment on each rigid block at displacements of all of them. */
   std::vector<double> forces(const Model<2> &model,
                              const std::vector<double> &q)
@@ -293,7 +278,7 @@ TEST(RigidBlocks, FallOfASpinningBlock)
   run.solver.begin_stage(stage_with({ "gravity" }), nullptr, run.state);
   run.solver.set_time_step(1e-3);
   run.state.get<RigidBlockStates>()[0].velocity[2] = 7.;
-  EXPECT_LT(residual_of_steps(run, 2000), 1e-12);
+  EXPECT_LT(run.residual_of_steps(2000), 1e-12);
   const RigidBlockState &block = run.state.get<RigidBlockStates>()[0];
   EXPECT_NEAR(block.displacement[0], 2., 1e-10);
   EXPECT_NEAR(block.displacement[1], -9.81 * 2., 1e-10);
@@ -371,7 +356,7 @@ TEST(RigidBlocks, AccountsBalanceWithAnyDamping)
           for (unsigned int d = 0; d < 3; ++d)
             block.velocity[d] = (1. + d) * 1e-11;
       previous = &stage;
-      EXPECT_LT(residual_of_steps(run, 1000), 2e-12)
+      EXPECT_LT(run.residual_of_steps(1000), 2e-12)
           << static_cast<int>(damping);
     }
     const double taken = run.solver.energies().damping;
@@ -395,7 +380,7 @@ TEST(RigidBlocks, AccountsBalanceOfALoadedPlaten)
                  component(given_force, "-100*cos(400*t)"),
                  component(given_force, "100")) });
     run.begin(stage_with({ "below", "press" }, damping));
-    EXPECT_LT(residual_of_steps(run, 1000), 3e-6);
+    EXPECT_LT(run.residual_of_steps(1000), 3e-6);
     EXPECT_GT(run.solver.energies().external, 0.);
   }
 }
@@ -420,7 +405,7 @@ TEST(RigidBlocks, ResidualOfALargeRotationIsSmall)
       block.velocity[1]      = 2. * (own.centre[0] - 1.);
       block.velocity[2]      = 2.;
     }
-    residual[k] = residual_of_steps(run, std::lround(1. / run.dt()));
+    residual[k] = run.residual_of_steps(std::lround(1. / run.dt()));
     EXPECT_LT(residual[k], 1e-5);
   }
   EXPECT_NEAR(residual[0] / residual[1], 4., 0.2);

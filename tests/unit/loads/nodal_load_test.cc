@@ -22,24 +22,9 @@ namespace
   /** A rectangle of 3 m by 1 m, the block inside, whose curve is "wall". */
   struct Rectangle
   {
-    const BlockMesh<2> mesh = block();
+    const BlockMesh<2> mesh
+        = rectangle(0., 0., 3., 1., { "", "wall", "right" }, { 1, 2, 1, 1 });
     const TestNodes nodes{ mesh };
-
-    static BlockMesh<2> block()
-    {
-      BlockMesh<2> result;
-      result.vertices   = { { 0., 0. }, { 3., 0. }, { 3., 1. }, { 0., 1. } };
-      result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
-      result.cell_group = { 0, 0 };
-      result.block_first_cell   = { 0, 2 };
-      result.block_first_vertex = { 0, 4 };
-      result.group_names        = { "rock" };
-      result.face_names         = { "", "wall", "right" };
-      for (const unsigned int k : { 0U, 1U, 2U, 3U })
-        result.boundary_faces.push_back(
-            { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k == 1 ? 2U : 1U });
-      return result;
-    }
 
     NodalLoad<2> load(const std::vector<std::string> &curves,
                       const std::string &pressure, const double thickness) const

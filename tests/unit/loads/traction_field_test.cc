@@ -3,6 +3,7 @@
 
 #include "../base/section_text.h"
 #include "../mesh/space_box.h"
+#include "../mesh/test_meshes.h"
 #include "../mesh/test_nodes.h"
 
 #include <quoin/loads/load_field.h>
@@ -23,24 +24,9 @@ namespace
   /** A block of 3 m by 1 m in two triangles, with curves "right" and "top". */
   struct Rectangle
   {
-    const BlockMesh<2> mesh = block();
+    const BlockMesh<2> mesh = quoin::test::rectangle(
+        0., 0., 3., 1., { "", "right", "top" }, { 0, 1, 2, 0 });
     const TestNodes nodes{ mesh };
-
-    static BlockMesh<2> block()
-    {
-      BlockMesh<2> result;
-      result.vertices   = { { 0., 0. }, { 3., 0. }, { 3., 1. }, { 0., 1. } };
-      result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
-      result.cell_group = { 0, 0 };
-      result.block_first_cell   = { 0, 2 };
-      result.block_first_vertex = { 0, 4 };
-      result.group_names        = { "rock" };
-      result.face_names         = { "", "right", "top" };
-      for (const unsigned int k : { 0U, 1U, 2U, 3U })
-        result.boundary_faces.push_back(
-            { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k == 3 ? 0U : k });
-      return result;
-    }
 
     NodalLoad<2> load(const std::string &text) const
     {

@@ -16,9 +16,8 @@ using namespace quoin;
 
 namespace
 {
-  using Strain            = std::array<double, 3>;
-  using Stress            = std::array<double, 4>;
-  constexpr double degree = 0.017453292519943295;
+  using Strain = std::array<double, 3>;
+  using Stress = std::array<double, 4>;
 
   // So stiff that Biot's stress is Cauchy's.
   const std::vector<LinearElastic> rocks{ { 2500., 10e18, 0.25 },
@@ -26,21 +25,6 @@ namespace
                                           { 2500., 10e18, 0.45 },
                                           { 2500., 10e18, -0.4 } };
   constexpr LinearElastic real_rock{ 2500., 10e9, 0.25 };
-
-  std::vector<MohrCoulombStrength> strengths(const bool associated)
-  {
-    std::vector<MohrCoulombStrength> result;
-    for (const double phi : { 0., 20. * degree, 50. * degree })
-      for (const double ft : { infinity, 0.5e6, 0. })
-        for (const double psi : { 0., 0.4 * phi, phi })
-          if (!associated || psi == phi)
-          {
-            result.push_back({ 2e6, phi, psi, ft });
-            if (phi == 0.)
-              break;
-          }
-    return result;
-  }
 
   /** Principal trial stresses xx, yy, zz that reach every region. */
   Stress random_trial(std::mt19937 &random, const PlaneAssumption plane)

@@ -20,26 +20,9 @@ namespace
 {
   using Eigen::Matrix3d;
 
-  constexpr double degree = 0.017453292519943295;
-
   // So stiff that Biot's stress is Cauchy's.
   constexpr LinearElastic stiff_rock{ 2500., 10e18, 0.25 };
   constexpr LinearElastic real_rock{ 2500., 10e9, 0.25 };
-
-  std::vector<MohrCoulombStrength> strengths(const bool associated)
-  {
-    std::vector<MohrCoulombStrength> result;
-    for (const double phi : { 0., 20. * degree, 50. * degree })
-      for (const double ft : { infinity, 0.5e6, 0. })
-        for (const double psi : { 0., 0.4 * phi, phi })
-          if (!associated || psi == phi)
-          {
-            result.push_back({ 2e6, phi, psi, ft });
-            if (phi == 0.)
-              break;
-          }
-    return result;
-  }
 
   Matrix3d random_rotation(std::mt19937 &random)
   {

@@ -22,6 +22,22 @@ namespace quoin
   using Vector3 = Eigen::Vector3d;
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double degree   = 0.017453292519943295;
+
+  inline std::vector<MohrCoulombStrength> strengths(const bool associated)
+  {
+    std::vector<MohrCoulombStrength> result;
+    for (const double phi : { 0., 20. * degree, 50. * degree })
+      for (const double ft : { infinity, 0.5e6, 0. })
+        for (const double psi : { 0., 0.4 * phi, phi })
+          if (!associated || psi == phi)
+          {
+            result.push_back({ 2e6, phi, psi, ft });
+            if (phi == 0.)
+              break;
+          }
+    return result;
+  }
 
   /** normal . s <= limit, with the flow of the plane. */
   struct Plane

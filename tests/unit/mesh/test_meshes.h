@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -51,6 +52,29 @@ namespace quoin::test
         mesh.cells.push_back({ { a, c, d } });
         mesh.cell_group.resize(mesh.cells.size(), group_number);
       }
+  }
+
+  /**
+   * One block of two triangles, whose corners are (x0, y0) and (x1, y1), with
+   * the number of the name of its bottom, right, top and left side.
+   */
+  inline BlockMesh<2> rectangle(const double x0, const double y0,
+                                const double x1, const double y1,
+                                const std::vector<std::string> &face_names,
+                                const std::array<unsigned int, 4> &name_of_side)
+  {
+    BlockMesh<2> result;
+    result.vertices   = { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } };
+    result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+    result.cell_group = { 0, 0 };
+    result.block_first_cell   = { 0, 2 };
+    result.block_first_vertex = { 0, 4 };
+    result.group_names        = { "rock" };
+    result.face_names         = face_names;
+    for (const unsigned int k : { 0U, 1U, 2U, 3U })
+      result.boundary_faces.push_back(
+          { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, name_of_side[k] });
+    return result;
   }
 
   /** The last node of the mesh at this place. */

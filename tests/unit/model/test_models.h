@@ -191,6 +191,23 @@ namespace quoin::test
         solver.step(state, { false, balance });
     }
 
+    /** What @p n steps add to the energy residual, by the throughput. */
+    double residual_of_steps(const unsigned int n)
+    {
+      solver.step(state, { true, false });
+      // An initial velocity is energy that no account has.
+      const double start = solver.energies().residual();
+      double largest     = 0.;
+      for (unsigned int i = 1; i < n; ++i)
+      {
+        solver.step(state, { true, false });
+        const Energies &energies = solver.energies();
+        largest = std::max(largest, std::abs(energies.residual() - start)
+                                        / energies.throughput());
+      }
+      return largest;
+    }
+
     double dt() const
     {
       return solver.get_time_step();

@@ -4,6 +4,7 @@
 #ifndef quoin_tests_unit_motions_boundary_square_h
 #define quoin_tests_unit_motions_boundary_square_h
 
+#include "../mesh/test_meshes.h"
 #include "../mesh/test_nodes.h"
 
 #include <quoin/loads/load_parameters.h>
@@ -22,7 +23,9 @@ namespace quoin::test
   struct BoundarySquare
   {
     static constexpr double dt = 1e-3;
-    BlockMesh<2> mesh          = rectangle();
+    BlockMesh<2> mesh
+        = rectangle(1., 2., 4., 3., { "", "bottom", "right", "top", "left" },
+                    { 1, 2, 3, 4 });
     TestNodes nodes{ mesh };
     std::vector<double> mass = { 2., 1., 2., 1. }; /**< [kg] */
     std::vector<CapturedNode<2>> captured;
@@ -40,22 +43,6 @@ namespace quoin::test
       step.load_rate                              = 1.;
       step.middle                                 = { 0.5 * dt, 0.5 * dt };
       step.end                                    = { dt, dt };
-    }
-
-    static BlockMesh<2> rectangle()
-    {
-      BlockMesh<2> result;
-      result.vertices   = { { 1., 2. }, { 4., 2. }, { 4., 3. }, { 1., 3. } };
-      result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
-      result.cell_group = { 0, 0 };
-      result.block_first_cell   = { 0, 2 };
-      result.block_first_vertex = { 0, 4 };
-      result.group_names        = { "rock" };
-      result.face_names         = { "", "bottom", "right", "top", "left" };
-      for (const unsigned int k : { 0U, 1U, 2U, 3U })
-        result.boundary_faces.push_back(
-            { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k + 1 });
-      return result;
     }
 
     /** What the solver does before it: captures the nodes, as they are. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../mesh/test_meshes.h"
 #include "../mesh/test_nodes.h"
 
 #include <quoin/structures/beam_fields.h>
@@ -20,18 +21,8 @@ namespace
   /** A square of 1 m, the block above the liner, whose curve is "wall". */
   BlockMesh<2> block()
   {
-    BlockMesh<2> result;
-    result.vertices   = { { 0., 0. }, { 1., 0. }, { 1., 1. }, { 0., 1. } };
-    result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
-    result.cell_group = { 0, 0 };
-    result.block_first_cell   = { 0, 2 };
-    result.block_first_vertex = { 0, 4 };
-    result.group_names        = { "rock" };
-    result.face_names         = { "", "wall", "other" };
-    for (const unsigned int k : { 0U, 1U, 2U, 3U })
-      result.boundary_faces.push_back(
-          { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k < 3 ? 1U : 2U });
-    return result;
+    return quoin::test::rectangle(0., 0., 1., 1., { "", "wall", "other" },
+                                  { 1, 1, 1, 2 });
   }
 
   BeamParameters section()
