@@ -367,11 +367,9 @@ namespace quoin
     double drag    = refused; // by the applied forces
     for (;; ++attempt.number)
     {
-      const StepTarget target = own_steps.target(state);
-      equilibrium->set_drag(
-          state.template get<ImplicitState>().jumps
-              ? 1. / state.template get<ImplicitState>().drag_step
-              : 0.);
+      ImplicitState &now      = state.template get<ImplicitState>();
+      const StepTarget target = own_steps.target(now, state.load_time);
+      equilibrium->set_drag(now.jumps ? 1. / now.drag_step : 0.);
       const bool converged
           = newton->solve(state, target, attempt, configuration);
       const double error = newton->prediction_error();
@@ -379,8 +377,8 @@ namespace quoin
           && configuration.load_time > own_steps.duration())
       {
         // The end of the stage is near: load control to reach it exactly.
-        state.template get<ImplicitState>().follows_path = false;
-        state.template get<ImplicitState>().step
+        now.follows_path = false;
+        now.step
             = (own_steps.duration() - state.load_time) / own_steps.duration();
         continue;
       }
@@ -388,35 +386,33 @@ namespace quoin
       // may find an equilibrium far away, where blocks have slid until their
       // tilt holds them: it is none of the path that the loads follow.
       const double most
-          = state.template get<ImplicitState>().jumps
-                ? own_steps.most_jump_path(state.template get<ImplicitState>())
-                : collapse_share * model.nodes().table().diagonal();
+          = now.jumps ? own_steps.most_jump_path(now)
+                      : collapse_share * model.nodes().table().diagonal();
       if (converged)
       {
-        const bool jumps  = state.template get<ImplicitState>().jumps;
         const double path = std::abs(balance.path);
         // The factor of a pattern whose loads no longer move what is controlled
         // may grow until blocks give way elsewhere.
-        const double went = acting.pattern && !jumps
+        const double went = acting.pattern && !now.jumps
                                 ? largest_move(state.nodes, configuration.nodes)
                                 : 0.;
         const double last = drag;
         drag              = balance.dragged / balance.applied;
-        if (own_steps.slows_loads(target, drag, last, state))
+        if (own_steps.slows_loads(target, drag, last, state.load_time, now))
           continue;
         // Soft joints slip far once they lose strength, whatever the drag.
         if (std::max(path, went) <= most
-            || (stage.safety && jumps && path > at_once_share * refused))
+            || (stage.safety && now.jumps && path > at_once_share * refused))
           break;
         refused = path;
       }
-      if (own_steps.is_too_long(state, target, error))
+      if (own_steps.is_too_long(state.load_time, target, error))
       {
-        own_steps.shorten(target, error, state);
+        own_steps.shorten(target, error, state.load_time, now);
         continue;
       }
       ++done.n_cuts;
-      if (!own_steps.cut(equilibrium->measures_path(), state))
+      if (!own_steps.cut(equilibrium->measures_path(), state.load_time, now))
         give_up(state);
     }
     const State<dim> before = state;
@@ -516,7 +512,7 @@ namespace quoin
   void ImplicitSolver<dim>::move_against_drag(State<dim> &state)
   {
     last_equilibrium = state;
-    own_steps.begin_jump(state);
+    own_steps.begin_jump(state.load_time, state.template get<ImplicitState>());
   }
 
   template <int dim>

@@ -62,22 +62,20 @@ namespace quoin
     now.last_step = 0.;
   }
 
-  template <int dim>
-  StepTarget ImplicitSteps::target(const State<dim> &state) const
+  StepTarget ImplicitSteps::target(const ImplicitState &now,
+                                   const double time) const
   {
-    const ImplicitState &now = state.template get<ImplicitState>();
     if (now.jumps)
-      return { now.jump_rate > 0.
-                   ? std::min(now.jump_time,
-                              state.load_time + now.jump_rate * now.drag_step)
-                   : now.jump_time,
+      return { now.jump_rate > 0. ? std::min(
+                   now.jump_time, time + now.jump_rate * now.drag_step)
+                                  : now.jump_time,
                now.jump_released, 0. };
     if (now.released < 1.)
     {
       const double next = now.released + now.step;
-      return { state.load_time, next > 1. - 1e-9 ? 1. : next, 0. };
+      return { time, next > 1. - 1e-9 ? 1. : next, 0. };
     }
-    double next = state.load_time + now.step * stage_end;
+    double next = time + now.step * stage_end;
     if (now.follows_path)
       return { next, 1., now.path_step };
     if (next > stage_end * (1. - 1e-9))
@@ -92,10 +90,8 @@ namespace quoin
                         * now.drag_path);
   }
 
-  template <int dim>
-  bool ImplicitSteps::begin_jump(State<dim> &state) const
+  bool ImplicitSteps::begin_jump(const double time, ImplicitState &now) const
   {
-    ImplicitState &now = state.template get<ImplicitState>();
     // A search for the factor of safety asks whether the model keeps moving.
     if (!searches_factor && !parameters.jumps)
       return false;
@@ -110,7 +106,7 @@ namespace quoin
     now.jump_loss      = 0.;
     now.drag_step      = first_drag_step;
     now.jump_rate      = 0.;
-    now.jump_time      = state.load_time;
+    now.jump_time      = time;
     now.jump_released  = 1.;
     const double share = std::max({ now.step, jump_share * now.last_step,
                                     2. * parameters.smallest_step });
@@ -131,12 +127,11 @@ namespace quoin
       now.drag_step *= drag_growth;
   }
 
-  template <int dim>
   bool ImplicitSteps::slows_loads(const StepTarget &target, const double ratio,
-                                  const double last, State<dim> &state) const
+                                  const double last, const double time,
+                                  ImplicitState &now) const
   {
-    ImplicitState &now   = state.template get<ImplicitState>();
-    const double advance = target.load_time - state.load_time;
+    const double advance = target.load_time - time;
     if (!now.jumps || searches_factor || rests || advance <= 0.)
       return false;
     const double rate = advance / now.drag_step;
@@ -177,16 +172,14 @@ namespace quoin
     now.step      = now.last_step;
   }
 
-  template <int dim>
-  bool ImplicitSteps::cut(const bool measures_path, State<dim> &state) const
+  bool ImplicitSteps::cut(const bool measures_path, const double time,
+                          ImplicitState &now) const
   {
-    ImplicitState &now = state.template get<ImplicitState>();
     if (now.jumps)
     {
       // Loads that come slowly do not move the model by more against the drag.
-      if (now.jump_rate == 0. && now.jump_time > state.load_time)
-        now.jump_rate
-            = drag_cut * (now.jump_time - state.load_time) / now.drag_step;
+      if (now.jump_rate == 0. && now.jump_time > time)
+        now.jump_rate = drag_cut * (now.jump_time - time) / now.drag_step;
       now.drag_step *= drag_cut;
       return now.drag_step > least_drag_step;
     }
@@ -196,7 +189,7 @@ namespace quoin
       now.step *= cut_factor;
       return now.path_step
                  > path_share * path_share * parameters.largest_path_step
-             || begin_jump(state);
+             || begin_jump(time, now);
     }
     const double last_step
         = std::max(now.last_step, 0.1 * parameters.first_step);
@@ -212,7 +205,7 @@ namespace quoin
                              : path_share * parameters.largest_path_step;
       return true;
     }
-    if (now.step < path_share * last_step && begin_jump(state))
+    if (now.step < path_share * last_step && begin_jump(time, now))
       return true;
     return now.step >= parameters.smallest_step;
   }
@@ -227,22 +220,18 @@ namespace quoin
                       parameters.first_step, parameters.largest_step);
   }
 
-  template <int dim>
-  bool ImplicitSteps::is_too_long(const State<dim> &state,
-                                  const StepTarget &target,
+  bool ImplicitSteps::is_too_long(const double time, const StepTarget &target,
                                   const double error) const
   {
     return error > predicted_ratio
-           && target.load_time - state.load_time
+           && target.load_time - time
                   > (1. + 1e-9) * parameters.first_step * stage_end;
   }
 
-  template <int dim>
   void ImplicitSteps::shorten(const StepTarget &target, const double error,
-                              State<dim> &state) const
+                              const double time, ImplicitState &now) const
   {
-    state.template get<ImplicitState>().step
-        = longest_step((target.load_time - state.load_time) / stage_end, error);
+    now.step = longest_step((target.load_time - time) / stage_end, error);
   }
 
   template <int dim>
@@ -296,26 +285,8 @@ namespace quoin
     }
   }
 
-  template StepTarget ImplicitSteps::target(const State<2> &) const;
-  template bool ImplicitSteps::begin_jump(State<2> &) const;
-  template bool ImplicitSteps::cut(bool, State<2> &) const;
-  template bool ImplicitSteps::is_too_long(const State<2> &, const StepTarget &,
-                                           double) const;
-  template void ImplicitSteps::shorten(const StepTarget &, double,
-                                       State<2> &) const;
   template void ImplicitSteps::adapt(const State<2> &, unsigned int, double,
                                      double, State<2> &) const;
-  template bool ImplicitSteps::slows_loads(const StepTarget &, double, double,
-                                           State<2> &) const;
-  template bool ImplicitSteps::slows_loads(const StepTarget &, double, double,
-                                           State<3> &) const;
-  template StepTarget ImplicitSteps::target(const State<3> &) const;
-  template bool ImplicitSteps::begin_jump(State<3> &) const;
-  template bool ImplicitSteps::cut(bool, State<3> &) const;
-  template bool ImplicitSteps::is_too_long(const State<3> &, const StepTarget &,
-                                           double) const;
-  template void ImplicitSteps::shorten(const StepTarget &, double,
-                                       State<3> &) const;
   template void ImplicitSteps::adapt(const State<3> &, unsigned int, double,
                                      double, State<3> &) const;
 } // namespace quoin

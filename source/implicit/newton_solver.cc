@@ -293,7 +293,7 @@ namespace quoin
       if (iteration == 0)
       {
         error = error_of_prediction(state, target);
-        if (steps.is_too_long(state, target, error))
+        if (steps.is_too_long(state.load_time, target, error))
           return false;
       }
       const bool there = target.path > 0.
@@ -324,11 +324,12 @@ namespace quoin
   {
     const Configuration<dim> configuration
         = configuration_of(dof_map.bodies(), state);
-    const StepTarget target = steps.target(state);
-    double share            = 0.;
-    advance.load_time       = target.load_time;
-    advance.released        = target.released;
-    advance.on_path         = target.path > 0.;
+    const StepTarget target
+        = steps.target(state.template get<ImplicitState>(), state.load_time);
+    double share      = 0.;
+    advance.load_time = target.load_time;
+    advance.released  = target.released;
+    advance.on_path   = target.path > 0.;
     equilibrium.linearise(state, configuration, broken, advance, balance,
                           slopes);
     find_correction(target, configuration, true, share);

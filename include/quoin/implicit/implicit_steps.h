@@ -54,22 +54,18 @@ namespace quoin
       return rests ? 1. : std::ceil(1. / parameters.largest_step * (1. - 1e-9));
     }
 
-    template <int dim>
-    StepTarget target(const State<dim> &state) const;
+    /** The target of the step from the load time @p time [s] on. */
+    StepTarget target(const ImplicitState &now, double time) const;
     /** Reduces the next step; false: it is the smallest one. @p measures_path:
         whether the path can be followed. */
-    template <int dim>
-    bool cut(bool measures_path, State<dim> &state) const;
-    /** Whether a load step from @p state to @p target is longer than the first
+    bool cut(bool measures_path, double time, ImplicitState &now) const;
+    /** Whether a load step from @p time to @p target is longer than the first
         one although its prediction left @p error of the forces out of
         balance. */
-    template <int dim>
-    bool is_too_long(const State<dim> &state, const StepTarget &target,
-                     double error) const;
-    /** Makes the next step from @p state, to @p target, shorter for that. */
-    template <int dim>
-    void shorten(const StepTarget &target, double error,
-                 State<dim> &state) const;
+    bool is_too_long(double time, const StepTarget &target, double error) const;
+    /** Makes the next step from @p time, to @p target, shorter for that. */
+    void shorten(const StepTarget &target, double error, double time,
+                 ImplicitState &now) const;
     /** Chooses the step after that from @p before to @p state, which took
         @p n_iterations, whose prediction left @p error of the forces out of
         balance, 0 if there was none, and which went along @p path [m]. */
@@ -78,17 +74,15 @@ namespace quoin
                double error, double path, State<dim> &state) const;
 
     /** Makes the next step the first of a jump; false: there are none. */
-    template <int dim>
-    bool begin_jump(State<dim> &state) const;
+    bool begin_jump(double time, ImplicitState &now) const;
     /** As adapt(), within a jump. */
     void adapt_jump(unsigned int n_iterations, double path,
                     ImplicitState &now) const;
-    /** Whether the loads of a jump went so fast in the step from @p state to
+    /** Whether the loads of a jump went so fast in the step from @p time to
         @p target that drag, @p ratio by the applied forces, held the model;
         they go slower then. @p last: that of the same step at another rate. */
-    template <int dim>
     bool slows_loads(const StepTarget &target, double ratio, double last,
-                     State<dim> &state) const;
+                     double time, ImplicitState &now) const;
     /** Chooses the step after a jump from the equilibrium @p before. */
     void end_jump(const ImplicitState &before, ImplicitState &now) const;
     /** Largest path increment in the next step of a jump [m]. */

@@ -17,13 +17,12 @@ namespace
   {
     ImplicitSteps steps(parameters);
     steps.begin_stage(2., loads_rest, safety);
-    state.load_time    = 1.;
     ImplicitState &now = state.add<ImplicitState>();
     now.released       = released;
     now.step           = 0.1;
-    EXPECT_TRUE(steps.begin_jump(state));
+    EXPECT_TRUE(steps.begin_jump(1., now));
     EXPECT_TRUE(now.jumps);
-    return steps.target(state);
+    return steps.target(now, 1.);
   }
 } // namespace
 
