@@ -316,8 +316,7 @@ TEST(InputAdvice, BoundaryElementsTooLongForStress)
 TEST(InputAdvice, BendingWithFewCellsAcross)
 {
   // A cantilever, held at its left end.
-  MeshData<2> data;
-  add_grid(data, 12, 2, "lower", 0., 0.);
+  MeshData<2> data = grid(12, 2, "lower", 0., 0.);
   add_curve(data, "bottom", 0., 0., 0., 2.);
   add_curve(data, "top", 0., 2., 12., 2.);
   BlockMesh<2> mesh     = split_into_blocks(data, {});

@@ -234,8 +234,7 @@ namespace
     Specimen(const MohrCoulombStrength &strength, const PlaneAssumption plane,
              const bool large_displacements, const double stretch)
     {
-      MeshData<2> data;
-      add_grid(data, 1, 1, "rock", 0., 0.);
+      MeshData<2> data = grid(1, 1, "rock", 0., 0.);
       add_curve(data, "bottom", 0., 0., 1., 0.);
       add_curve(data, "left", 0., 0., 0., 1.);
       add_curve(data, "top", 0., 1., 1., 1.);

@@ -962,8 +962,7 @@ TEST(ExplicitSolver, MassScalingRaisesTheCriticalStep)
 {
   // All four corners of a square of two triangles have the same bound, so all
   // masses grow with the square of the step.
-  MeshData<2> data;
-  add_grid(data, 1, 1, "rock");
+  MeshData<2> data  = grid(1, 1, "rock");
   BlockMesh<2> mesh = split_into_blocks(data, {});
   ModelParameters parameters;
   parameters.materials = { material("rock") };

@@ -260,8 +260,7 @@ TEST(FreeField, RefusesWhatIsNoSide)
   expect_refused({ incident("0", "0"), free_field("side", "left") },
                  { "'Boundary'", "rigid", "(0, 4)" }, parameters);
 
-  MeshData<2> data;
-  add_grid(data, 2, 3, "lower");
+  MeshData<2> data = grid(2, 3, "lower");
   add_curve(data, "bottom", 0., 0., 2., 0.);
   add_curve(data, "left", 0., 0., 0., 1.);
   add_curve(data, "left", 0., 2., 0., 3.);

@@ -43,8 +43,7 @@ namespace
   BlockMesh<2> make_rectangle(const unsigned int nx, const unsigned int ny,
                               const double x = 0.)
   {
-    MeshData<2> data;
-    add_grid(data, nx, ny, "block", x, 0.);
+    MeshData<2> data = grid(nx, ny, "block", x, 0.);
     return split_into_blocks(data, {});
   }
 
@@ -192,8 +191,7 @@ TEST(RigidBlocks, MassAndInertiaOfARectangle)
   // Far from the origin, whatever the mesh.
   for (const unsigned int n : { 1U, 3U })
   {
-    MeshData<2> data;
-    add_grid(data, 2 * n, n, "block", 1e5, -1e5, 1.5 / n);
+    MeshData<2> data  = grid(2 * n, n, "block", 1e5, -1e5, 1.5 / n);
     BlockMesh<2> mesh = split_into_blocks(data, {});
     const TestNodes nodes(mesh, one_rigid_block().materials);
     const Model<2> model(nodes, one_rigid_block());
@@ -214,8 +212,7 @@ TEST(RigidBlocks, MassAndInertiaOfARectangle)
 TEST(RigidBlocks, MassAndInertiaOfAnAngle)
 {
   // A square of 2 m without the upper right square of 1 m.
-  MeshData<2> data;
-  add_grid(data, 2, 2, "block");
+  MeshData<2> data = grid(2, 2, "block");
   data.cells.resize(6);
   data.cell_group.resize(6);
   data.vertices.pop_back();
@@ -545,8 +542,7 @@ TEST(RigidBlocks, BoundOfTheFrequency)
 TEST(RigidBlocks, BoundOfManyBlocksOnOne)
 {
   // Twenty blocks on a heavy one: its many springs must not cost a small step.
-  MeshData<2> data;
-  add_grid(data, 20, 1, "base", 0., -1.);
+  MeshData<2> data = grid(20, 1, "base", 0., -1.);
   for (unsigned int i = 0; i < 20; ++i)
   {
     add_grid(data, 1, 1, "block", i, 0.);
@@ -690,8 +686,7 @@ TEST(RigidBlocks, RefusesWhatWouldDeformThem)
 
 TEST(RigidBlocks, RefusesABlockThatIsRigidInPart)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 1, "stone");
+  MeshData<2> data = grid(2, 1, "stone");
   data.group_names.push_back("mortar");
   data.cell_group[3] = 1;
   BlockMesh<2> mesh  = split_into_blocks(data, {});

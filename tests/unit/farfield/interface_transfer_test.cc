@@ -15,7 +15,7 @@
 
 using namespace quoin;
 using quoin::test::add_curve;
-using quoin::test::add_grid;
+using quoin::test::grid;
 using quoin::test::TestNodes;
 
 namespace
@@ -101,8 +101,7 @@ TEST(InterfaceTransfer, means_of_linear_motion)
 // of a quadratic motion are those of the function.
 TEST(InterfaceTransfer, means_of_quadratic_motion)
 {
-  MeshData<2> data;
-  add_grid(data, 3, 1, "rock", 0., -1.);
+  MeshData<2> data = grid(3, 1, "rock", 0., -1.);
   add_curve(data, "top", 0., 0., 3., 0.);
   data.quadratic    = true;
   BlockMesh<2> mesh = split_into_blocks(data, {});

@@ -219,8 +219,7 @@ TEST(ImplicitSolver, IterationsConvergeQuadratically)
 // The same where a rigid block turns: forces of its nodes turn with it.
 TEST(ImplicitSolver, IterationsOfATurningBlockConvergeQuadratically)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 1, "lower", 0., 0.);
+  MeshData<2> data = grid(2, 1, "lower", 0., 0.);
   add_curve(data, "bottom", 0., 0., 2., 0.);
   add_grid(data, 2, 1, "upper", 0., 1.);
   add_curve(data, "joint", 0., 1., 2., 1.);
@@ -410,8 +409,7 @@ TEST(ImplicitSolver, RigidBlockUnderAnEccentricLoad)
 {
   // A wall of 2 m x 1 m on a bed of springs: weight 25 kN in the middle,
   // 0.5 kN half a metre to the right.
-  MeshData<2> data;
-  add_grid(data, 2, 1, "lower", 0., 0.);
+  MeshData<2> data = grid(2, 1, "lower", 0., 0.);
   add_curve(data, "bottom", 0., 0., 2., 0.);
   add_grid(data, 2, 1, "upper", 0., 1.);
   add_curve(data, "joint", 0., 1., 2., 1.);

@@ -130,8 +130,7 @@ TEST(Thickness, WaveIsReflectedByTheRatioOfSections)
 {
   constexpr unsigned int length = 200;
   constexpr double step = 1e-3, start = 50., section = 100., ramp = 8.;
-  MeshData<2> data;
-  add_grid(data, length, 1, "thin");
+  MeshData<2> data = grid(length, 1, "thin");
   data.group_names.push_back("thick");
   for (unsigned int c = 0; c < data.cells.size(); ++c)
     data.cell_group[c] = data.vertices[data.cells[c][0]][0] > section - 0.5;

@@ -753,8 +753,7 @@ TEST(MatchedJoints, BooksFrictionPerArea)
 
 TEST(MatchedJoints, CrackTipsAreHarmless)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 2, "rock");
+  MeshData<2> data = grid(2, 2, "rock");
   add_curve(data, "crack", 0, 1, 1, 1);
   SplitOptions options;
   options.joints_along = { "crack" };

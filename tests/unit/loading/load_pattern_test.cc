@@ -156,8 +156,7 @@ TEST(LoadPattern, WorkWithLocalDampingIsThatOfTheFactor)
 
 TEST(LoadPattern, TurnsRigidBlocksByTheMomentOfItsLoads)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 4, "block", 0., 0.);
+  MeshData<2> data  = grid(2, 4, "block", 0., 0.);
   BlockMesh<2> mesh = split_into_blocks(data, {});
   ModelParameters parameters;
   MaterialParameters stone = material("block", 2000.);

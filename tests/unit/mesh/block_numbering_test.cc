@@ -16,8 +16,7 @@ namespace
   /** n x n blocks of 2 x 2 squares, with a named bottom. */
   MeshData<2> tiles(const unsigned int n)
   {
-    MeshData<2> data;
-    add_grid(data, 2 * n, 2 * n, "rock");
+    MeshData<2> data = grid(2 * n, 2 * n, "rock");
     for (unsigned int i = 1; i < n; ++i)
     {
       add_curve(data, "joint", 2. * i, 0, 2. * i, 2. * n);
@@ -121,8 +120,7 @@ TEST(MeshData, SurvivesSerialization)
 
 TEST(MeshData, TurnsClockwiseTrianglesAndRefusesFlatOnes)
 {
-  MeshData<2> data;
-  add_grid(data, 1, 1, "rock");
+  MeshData<2> data = grid(1, 1, "rock");
   std::swap(data.cells[1][0], data.cells[1][1]);
   orient_cells(data);
   EXPECT_EQ(data.n_reoriented, 1U);

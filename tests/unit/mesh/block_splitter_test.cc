@@ -32,8 +32,7 @@ namespace
 
 TEST(BlockSplitter, LeavesASquareWhole)
 {
-  MeshData<2> data;
-  add_grid(data, 3, 2, "rock");
+  MeshData<2> data = grid(3, 2, "rock");
   add_curve(data, "base", 0, 0, 3, 0);
   BlockMesh<2> mesh = split_into_blocks(data, {});
 
@@ -56,8 +55,7 @@ TEST(BlockSplitter, LeavesASquareWhole)
 
 TEST(BlockSplitter, PutsTheLowerBlockBelowABedJoint)
 {
-  MeshData<2> data;
-  add_grid(data, 3, 2, "brick");
+  MeshData<2> data = grid(3, 2, "brick");
   add_curve(data, "bed", 0, 1, 3, 1);
   BlockMesh<2> mesh = split_into_blocks(data, along({ "bed" }));
 
@@ -75,8 +73,7 @@ TEST(BlockSplitter, PutsTheLowerBlockBelowABedJoint)
 
 TEST(BlockSplitter, PutsTheLowerBlockLeftOfAHeadJoint)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 3, "brick");
+  MeshData<2> data = grid(2, 3, "brick");
   add_curve(data, "head", 1, 0, 1, 3);
   BlockMesh<2> mesh = split_into_blocks(data, along({ "head" }));
 
@@ -91,8 +88,7 @@ TEST(BlockSplitter, PutsTheLowerBlockLeftOfAHeadJoint)
 
 TEST(BlockSplitter, SplitsAnXCrossingIntoFour)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 4, "rock");
+  MeshData<2> data = grid(4, 4, "rock");
   add_curve(data, "first", 2, 0, 2, 4);
   add_curve(data, "second", 0, 2, 4, 2);
   BlockMesh<2> mesh = split_into_blocks(data, along({ "first", "second" }));
@@ -111,8 +107,7 @@ TEST(BlockSplitter, SplitsAnXCrossingIntoFour)
 
 TEST(BlockSplitter, SplitsATCrossingIntoThree)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 4, "brick");
+  MeshData<2> data = grid(4, 4, "brick");
   add_curve(data, "bed", 0, 2, 4, 2);
   add_curve(data, "head", 2, 2, 2, 4);
   BlockMesh<2> mesh = split_into_blocks(data, along({ "bed", "head" }));
@@ -150,8 +145,7 @@ TEST(BlockSplitter, SplitsSixBlocksAtAVertex)
 
 TEST(BlockSplitter, SplitsBetweenTheGivenSurfacesOnly)
 {
-  MeshData<2> data;
-  add_grid(data, 3, 1, "a");
+  MeshData<2> data = grid(3, 1, "a");
   data.group_names = { "a", "b", "c" };
   data.cell_group  = { 0, 0, 1, 1, 2, 2 };
   SplitOptions options;
@@ -168,8 +162,7 @@ TEST(BlockSplitter, SplitsBetweenTheGivenSurfacesOnly)
 
 TEST(BlockSplitter, KeepsACrackThatEndsInside)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 4, "rock");
+  MeshData<2> data = grid(4, 4, "rock");
   add_curve(data, "crack", 0, 2, 2, 2);
   BlockMesh<2> mesh = split_into_blocks(data, along({ "crack" }));
 
@@ -185,8 +178,7 @@ TEST(BlockSplitter, KeepsACrackThatEndsInside)
 
 TEST(BlockSplitter, KeepsACrackWithTwoTips)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 4, "rock");
+  MeshData<2> data = grid(4, 4, "rock");
   add_curve(data, "crack", 1, 1, 3, 3);
   BlockMesh<2> mesh = split_into_blocks(data, along({ "crack" }));
 
@@ -197,8 +189,7 @@ TEST(BlockSplitter, KeepsACrackWithTwoTips)
 
 TEST(BlockSplitter, RefusesJointEndsIfAsked)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 4, "rock");
+  MeshData<2> data = grid(4, 4, "rock");
   add_curve(data, "crack", 0, 2, 2, 2);
   SplitOptions options = along({ "crack" });
   options.joint_ends   = SplitOptions::refuse;
@@ -261,8 +252,7 @@ TEST(BlockSplitter, FindsCoincidentEdgesFarFromTheOrigin)
 
 TEST(BlockSplitter, SeparatesBlocksThatMeetInAPoint)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 2, "rock");
+  MeshData<2> data = grid(2, 2, "rock");
   data.cells.erase(data.cells.begin() + 2, data.cells.begin() + 6);
   data.cell_group.resize(4);
   BlockMesh<2> mesh = split_into_blocks(data, {});
@@ -273,8 +263,7 @@ TEST(BlockSplitter, SeparatesBlocksThatMeetInAPoint)
 
 TEST(BlockSplitter, RefusesNamesThatDoNotExist)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 2, "rock");
+  MeshData<2> data = grid(2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   BlockMesh<2> mesh;
   expect_input_error([&] { split_into_blocks(data, along({ "falt" })); },
@@ -293,8 +282,7 @@ TEST(BlockSplitter, RefusesNamesThatDoNotExist)
 
 TEST(BlockSplitter, RefusesJointsOnTheOuterBoundary)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 2, "rock");
+  MeshData<2> data = grid(2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   add_curve(data, "fault", 2, 1, 2, 2);
   expect_input_error([&] { split_into_blocks(data, along({ "fault" })); },
@@ -303,8 +291,7 @@ TEST(BlockSplitter, RefusesJointsOnTheOuterBoundary)
 
 TEST(BlockSplitter, RefusesCurvesThatAreNoEdges)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 2, "rock");
+  MeshData<2> data = grid(2, 2, "rock");
   add_curve(data, "fault", 0, 1, 1, 0); // across the diagonals
   BlockMesh<2> mesh;
   expect_input_error(
@@ -320,8 +307,7 @@ TEST(BlockSplitter, RefusesCurvesThatAreNoEdges)
 
 TEST(BlockSplitter, RefusesCurvesOnEachOther)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 2, "rock");
+  MeshData<2> data = grid(2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   add_curve(data, "seam", 1, 1, 2, 1);
   expect_input_error([&] { split_into_blocks(data, {}); },
@@ -330,8 +316,7 @@ TEST(BlockSplitter, RefusesCurvesOnEachOther)
 
 TEST(BlockSplitter, RefusesOverlaps)
 {
-  MeshData<2> data;
-  add_grid(data, 2, 2, "rock");
+  MeshData<2> data  = grid(2, 2, "rock");
   MeshData<2> twice = data;
   twice.cells.push_back(twice.cells.front());
   twice.cell_group.push_back(0);
@@ -347,8 +332,7 @@ TEST(BlockSplitter, RefusesOverlaps)
 
 TEST(BlockSplitter, GivesTheSameBlocksForAnyOrderOfTriangles)
 {
-  MeshData<2> data;
-  add_grid(data, 6, 6, "rock");
+  MeshData<2> data = grid(6, 6, "rock");
   add_curve(data, "joint", 0, 2, 6, 2);
   add_curve(data, "joint", 3, 2, 3, 6);
   MeshData<2> reversed = data;

@@ -13,8 +13,7 @@ using namespace quoin::test;
 
 TEST(MeshReport, CountsAndMeasures)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 2, "rock", -1.);
+  MeshData<2> data = grid(4, 2, "rock", -1.);
   add_curve(data, "bed", -1, 1, 3, 1);
   add_curve(data, "crack", 1, 1, 1, 2);
   SplitOptions options;
@@ -45,8 +44,7 @@ TEST(MeshReport, CountsAndMeasures)
 
 TEST(MeshReport, SpeaksOfQuadraticTriangles)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 2, "rock");
+  MeshData<2> data = grid(4, 2, "rock");
   add_curve(data, "bed", 0, 1, 4, 1);
   data.quadratic = true;
   SplitOptions options;
@@ -71,8 +69,7 @@ TEST(MeshReport, SpeaksOfQuadraticTriangles)
 
 TEST(MeshReport, CountsJointEnds)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 4, "rock");
+  MeshData<2> data = grid(4, 4, "rock");
   add_curve(data, "crack", 0, 1, 2, 1);
   add_curve(data, "short", 1, 3, 2, 3);
   SplitOptions options;
@@ -105,8 +102,7 @@ TEST(MeshReport, FindsEdgesThatTouchWithoutMatching)
 
 TEST(MeshReport, FindsSlivers)
 {
-  MeshData<2> data;
-  add_grid(data, 4, 2, "rock");
+  MeshData<2> data     = grid(4, 2, "rock");
   const auto report_of = [&](const double x)
   {
     data.vertices[node_at(data, 1., 1.)][0] = x;

@@ -360,8 +360,7 @@ namespace quoin::test
     /** Four blocks of two groups, one of them apart, with two cracks. */
     BlockMesh<2> cracked_blocks()
     {
-      MeshData<2> data;
-      add_grid(data, 6, 4, "rock");
+      MeshData<2> data = grid(6, 4, "rock");
       add_curve(data, "bed", 0, 2, 6, 2);
       add_curve(data, "head", 2, 2, 2, 4);
       add_curve(data, "crack", 4, 0, 4, 1);
@@ -533,8 +532,7 @@ namespace quoin::test
   TEST(Partition, SharesManyBlocksEvenly)
   {
     // 64 blocks of 2 x 2 squares with joints between.
-    MeshData<2> data;
-    add_grid(data, 16, 16, "rock");
+    MeshData<2> data = grid(16, 16, "rock");
     for (unsigned int i = 2; i < 16; i += 2)
     {
       add_curve(data, "joint", i, 0., i, 16.);
@@ -576,8 +574,7 @@ namespace quoin::test
     }
 
     // A large block and small ones: no rank may be empty.
-    MeshData<2> uneven;
-    add_grid(uneven, 10, 10, "block");
+    MeshData<2> uneven = grid(10, 10, "block");
     for (unsigned int i = 0; i < 4; ++i)
       add_grid(uneven, 1, 1, "block", 20. + 2 * i);
     mesh = split_into_blocks(uneven, {});

@@ -54,6 +54,16 @@ namespace quoin::test
       }
   }
 
+  /** add_grid() alone. */
+  inline MeshData<2> grid(const unsigned int nx, const unsigned int ny,
+                          const std::string &group, const double x = 0.,
+                          const double y = 0., const double side = 1.)
+  {
+    MeshData<2> mesh;
+    add_grid(mesh, nx, ny, group, x, y, side);
+    return mesh;
+  }
+
   /**
    * One block of two triangles, whose corners are (x0, y0) and (x1, y1), with
    * the number of the name of its bottom, right, top and left side.

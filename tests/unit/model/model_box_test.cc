@@ -21,8 +21,7 @@ namespace
   /** The stack without a joint, the upper block higher and to the right. */
   BlockMesh<2> make_parted_stack(const double gap, const double right = 0.)
   {
-    MeshData<2> data;
-    add_grid(data, 2, 1, "lower", 0., 0.);
+    MeshData<2> data     = grid(2, 1, "lower", 0., 0.);
     const unsigned int n = data.vertices.size();
     add_grid(data, 2, 2, "upper", 0., 1.);
     for (unsigned int v = n; v < data.vertices.size(); ++v)
