@@ -419,12 +419,7 @@ namespace quoin
     }
     if constexpr (dim == 2)
       if (all.water)
-      {
-        std::vector<GrowingWater> growing;
-        for (const PlacedGrowth &each : state.template get<LoadGrowth>().placed)
-          growing.push_back({ each.blocks, each.growth });
-        all.water->let_grow(growing);
-      }
+        all.water->let_grow(this->growing_water(state));
   }
 
   template <int dim>

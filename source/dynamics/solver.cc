@@ -227,7 +227,18 @@ namespace quoin
   {
     if constexpr (dim == 2)
       if (all.water)
-        all.water->add_forces_between(blocks, state, force);
+        all.water->add_forces_between(blocks, growing_water(state), state,
+                                      force);
+  }
+
+  template <int dim>
+  std::vector<GrowingWater>
+  Solver<dim>::growing_water(const State<dim> &state) const
+  {
+    std::vector<GrowingWater> result;
+    for (const PlacedGrowth &each : state.template get<LoadGrowth>().placed)
+      result.push_back({ each.blocks, each.growth });
+    return result;
   }
 
   template <int dim>

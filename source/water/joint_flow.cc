@@ -285,6 +285,7 @@ namespace quoin
   }
 
   void JointFlow::add_forces_between(const std::vector<unsigned int> &blocks,
+                                     const std::vector<GrowingWater> &growing,
                                      const State<2> &state,
                                      dealii::Tensor<1, 2> *force) const
   {
@@ -299,21 +300,31 @@ namespace quoin
       {
         std::map<unsigned int, dealii::Tensor<1, 2>> whole;
         add_forces_in(c, water, whole);
-        const double grown = share_in(c, state.load_time);
-        for (const auto &[node, part] : whole)
-          sum[node] += grown * part;
+        const std::size_t part = part_of(c, growing);
+        const double grown     = part < growing.size()
+                                     ? growing[part].growth.share(state.load_time)
+                                     : 1.;
+        for (const auto &[node, size] : whole)
+          sum[node] += grown * size;
       }
     }
     for (const auto &[node, part] : sum)
       force[node] += part;
   }
 
-  double JointFlow::share_in(const unsigned int c, const double load_time) const
+  bool GrowingWater::has(const unsigned int block) const
   {
-    for (const GrowingForces &part : growing)
-      if (part.has[c])
-        return part.given.growth.share(load_time);
-    return 1.;
+    return std::binary_search(blocks.begin(), blocks.end(), block);
+  }
+
+  std::size_t JointFlow::part_of(const unsigned int c,
+                                 const std::vector<GrowingWater> &parts) const
+  {
+    const auto &[lower, upper] = places.faces[c].blocks;
+    for (std::size_t i = parts.size(); i-- > 0;)
+      if (parts[i].has(lower) || parts[i].has(upper))
+        return i;
+    return parts.size();
   }
 
   void JointFlow::Forces::set(
@@ -350,21 +361,8 @@ namespace quoin
       growing.push_back(
           { part, std::vector<std::uint8_t>(places.faces.size(), 0), {} });
     for (unsigned int c = 0; c < places.faces.size(); ++c)
-    {
-      const auto lies_at = [&](const GrowingForces &part)
-      {
-        return std::any_of(
-            places.faces[c].blocks.begin(), places.faces[c].blocks.end(),
-            [&](const unsigned int block)
-            {
-              return std::binary_search(part.given.blocks.begin(),
-                                        part.given.blocks.end(), block);
-            });
-      };
-      const auto last = std::find_if(growing.rbegin(), growing.rend(), lies_at);
-      if (last != growing.rend())
-        last->has[c] = 1;
-    }
+      if (const std::size_t part = part_of(c, parts); part < parts.size())
+        growing[part].has[c] = 1;
     find_forces();
   }
 

@@ -18,6 +18,8 @@
 
 namespace quoin
 {
+  struct GrowingWater;
+
   /** Energies of the whole model at one time [J]. */
   struct Energies : EnergyAccounts
   {
@@ -163,6 +165,8 @@ namespace quoin
     /** Lets loads grow as in the stage of @p state. */
     void resume_growth(const StageParameters *previous,
                        const State<dim> &state);
+    /** Growth of the water at placed blocks in the stage of @p state. */
+    std::vector<GrowingWater> growing_water(const State<dim> &state) const;
     /** Begins the load pattern, if the stage has one, once the stage has
         begun; it goes on with the factor of @p previous if that has the same
         loads in its pattern. Collective. */

@@ -55,6 +55,8 @@ namespace quoin
   {
     std::vector<unsigned int> blocks; /**< of the mesh, ascending */
     Growth growth;
+
+    bool has(unsigned int block) const;
   };
 
   /** Volumes of water since the start of the run [m^3]. */
@@ -94,8 +96,10 @@ namespace quoin
 
     /** Adds the forces of the water of @p state in joints between @p blocks,
         which are about to be taken away, and others to the owned nodes of both
-        [N]. */
+        [N]. @p growing: as given to let_grow() in the stage of @p state, which
+        may not have been this object's last one. */
     void add_forces_between(const std::vector<unsigned int> &blocks,
+                            const std::vector<GrowingWater> &growing,
                             const State<2> &state,
                             dealii::Tensor<1, 2> *force) const;
     /** Begins stage @p name, with steady flow at once if that is wanted.
@@ -183,9 +187,9 @@ namespace quoin
         nodes. */
     void add_forces_in(unsigned int c, const JointFlowState &water,
                        std::map<unsigned int, dealii::Tensor<1, 2>> &sum) const;
-    /** Share of the forces in the channel @p c that acts at @p load_time of the
-        stage [s], [-]. */
-    double share_in(unsigned int c, double load_time) const;
+    /** Which of @p parts counts for the channel @p c; their number: none. */
+    std::size_t part_of(unsigned int c,
+                        const std::vector<GrowingWater> &parts) const;
     /** Forces of the pressures of now. */
     void find_forces();
 
