@@ -112,9 +112,11 @@ namespace quoin
    * loading begins with r = 0. Where slip is a vector, these rates are those of
    * the size of tau by the component of slip along it; across it the joint is
    * elastic, by which tau turns, and unloads until it slips straight across
-   * tau, with r that of the size there. tau stays where the pressure changes
-   * ks(s); what that changes of tau^2/(2 ks) is booked as friction, either way.
-   * An open joint transfers nothing.
+   * tau, with r that of the size there. A step that takes less than a share
+   * 'rounding' off tau leaves r as it is: a joint that is held would get its
+   * elastic stiffness back by the rounding of its slip. tau stays where the
+   * pressure changes ks(s); what that changes of tau^2/(2 ks) is booked as
+   * friction, either way. An open joint transfers nothing.
    */
   struct ContinuouslyYieldingLaw : RockLaw<ContinuouslyYieldingLaw>
   {
@@ -131,6 +133,8 @@ namespace quoin
 
     /** r is not above this [-]. */
     static constexpr double largest_reload = 0.75;
+    /** Share of tau that is left to the rounding of slip [-]. */
+    static constexpr double rounding = 1e-10;
 
     /** The law of a set of joints, or its entries of the parameter file. */
     static ContinuouslyYieldingLaw read(LawEntries &entries);
@@ -233,9 +237,9 @@ namespace quoin
                                          const Number &reload)
   {
     using std::exp;
-    // Elastic as long as F would be above 1.
+    // Elastic as long as F would be above 1, and back by rounding.
     const Number stiff = reload * strength - tau;
-    if (value_of(stiff) > value_of(growth))
+    if (value_of(stiff) > value_of(growth) || value_of(growth) < 0.)
       return tau + growth;
     if (value_of(stiff) > 0.)
     {
@@ -256,10 +260,10 @@ namespace quoin
                                 const SlipOf<dim, Number> &slip) const
   {
     RockFlow<dim, Number> result;
-    const double ks_old = shear_stiffness(-point.normal_traction);
-    const auto moved    = slip
-                       - constant_slip<dim, Number>(
-                           point.plastic_slip + point.shear_traction / ks_old);
+    const Slip<dim> elastic
+        = point.shear_traction / shear_stiffness(-point.normal_traction);
+    const auto moved
+        = slip - constant_slip<dim, Number>(point.plastic_slip + elastic);
     const SlipOf<dim, Number> trial = before + ks * moved;
     const Number size               = magnitude(trial);
     Number tau                      = magnitude(before);
@@ -267,7 +271,8 @@ namespace quoin
     result.reload                   = point.reload;
 
     bool is_loaded = value_of(size) > 0.;
-    if (value_of(before * moved) < 0.)
+    if (value_of(before * moved)
+        < -rounding * value_of(before * constant_slip<dim, Number>(elastic)))
     {
       is_loaded     = value_of(trial * moved) > 0.;
       tau           = is_loaded ? distance_of_line(before, moved) : size;

@@ -147,9 +147,11 @@ namespace quoin
         size_before       = magnitude(before);
         stiffness_before
             = stiffness_at(laws.law.stiffness, Dual{ -sigma, none }).value;
+        const Slips elastic = (1. / stiffness_before) * before;
         moved = points.slip - Slips::load(points.slips_of(at.plastic_slip))
-                - (1. / stiffness_before) * before;
-        turns = dot(before, moved) < 0.;
+                - elastic;
+        turns = dot(before, moved + ContinuouslyYieldingLaw::rounding * elastic)
+                < 0.;
         if constexpr (dim == 2)
           nearest = none;
         else
@@ -249,9 +251,9 @@ namespace quoin
         const Value left  = decay(way.value);
         const Dual yields
             = strength - (strength - tau) * Dual{ left, -left * way.by };
-        const Dual reached
-            = Dual::choose(stiff.value > growth.value, start + growth,
-                           Dual::choose(is_strong, yields, Dual{}));
+        const Dual reached = Dual::choose(
+            (stiff.value > growth.value) | (growth.value < 0.), start + growth,
+            Dual::choose(is_strong, yields, Dual{}));
         const Dual lost = size - reached;
         return { Dual::choose(is_loaded, reached, size),
                  Dual::choose(is_loaded, lost / ks, Dual{}), again.value,

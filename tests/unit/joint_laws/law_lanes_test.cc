@@ -407,8 +407,8 @@ namespace
   void check_continuously_yielding()
   {
     const std::array<double, 4> scales{ 4e-4, 4e-4, 1., 1. };
-    // Slip turns by any step against the traction, and where there is none by
-    // rounding.
+    // Where the pressure has gone, and the traction not yet, it comes down by
+    // the rounding of the slip.
     constexpr bool rests = false;
     // Where the pressure has fallen the traction stands above the strength, by
     // up to some hundred times, and comes down by exp(-growth/strength), which
@@ -463,6 +463,56 @@ TEST(LawLanes, ContinuouslyYielding)
   check_continuously_yielding<4, 3>();
   check_continuously_yielding<8, 2>();
   check_continuously_yielding<8, 3>();
+}
+
+namespace
+{
+  /** Points that are closed, sheared and held, but for the rounding of their
+      slip, do not begin to load anew. */
+  template <int lanes, int dim>
+  void check_held()
+  {
+    const auto law = rock_test::yielding();
+    const double V = law.closure.closure(2e6);
+    Pack<lanes, dim> pack;
+    PointArrays<dim> first = pack.arrays();
+    for (int l = 0; l < lanes; ++l)
+      write_point(PointOf<ContinuouslyYieldingLaw, dim>(), first, l);
+    double opening[lanes];
+    Slip<dim> slip[lanes]{};
+    std::fill_n(opening, lanes, -V);
+    const auto go_to = [&](const double size)
+    {
+      for (int l = 0; l < lanes; ++l)
+        if constexpr (dim == 2)
+          slip[l] = size;
+        else
+        {
+          slip[l][0] = 0.6 * size;
+          slip[l][1] = -0.8 * size;
+        }
+      const Pack<lanes, dim> before = pack;
+      pack = update<lanes, dim>(law, before, opening, slip, 1.).pack;
+    };
+    for (unsigned int i = 1; i <= 100; ++i)
+      go_to(2e-6 * i);
+    for (unsigned int i = 0; i < 100; ++i)
+      go_to(2e-4 + (i % 3 - 1.) * 1e-15);
+    PointArrays<dim> arrays = pack.arrays();
+    for (int l = 0; l < lanes; ++l)
+      EXPECT_EQ(read_point(law, arrays, l).reload, 0.);
+    go_to(1.9e-4);
+    for (int l = 0; l < lanes; ++l)
+      EXPECT_GT(read_point(law, arrays, l).reload, 0.1);
+  }
+} // namespace
+
+TEST(LawLanes, YieldingJointsThatAreHeld)
+{
+  check_held<4, 2>();
+  check_held<4, 3>();
+  check_held<8, 2>();
+  check_held<8, 3>();
 }
 
 namespace
