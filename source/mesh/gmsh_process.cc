@@ -164,8 +164,12 @@ namespace quoin
                        + "), perhaps because memory is short. Coarsen the "
                          "mesh or use a larger machine.");
     if (!channel.is_complete())
-      fail_on_mesh(source,
-                   "gmsh ended while it read or meshed the geometry. " + cure);
+      fail_on_mesh(
+          source,
+          "gmsh ended while it read or meshed the geometry. " + cure
+              + " If coordinates are those of a map, subtract an offset "
+                "from them: millions of metres leave gmsh no digits for "
+                "small cells.");
     return mesh;
   }
 } // namespace quoin

@@ -125,7 +125,7 @@ namespace quoin
     now.attached.resize(n_points, 0);
     now.offset.resize(n_points, dealii::Tensor<1, 2>());
     now.interface.resize(n_points, n_internal_variables);
-    now.block_position.resize(2 * n_points, 0.);
+    now.block_motion.resize(2 * n_points, 0.);
     now.load.resize(n_nodes, dealii::Tensor<1, 2>());
   }
 
@@ -138,7 +138,7 @@ namespace quoin
       const std::string &stage = line.given.stage;
       if (!now.placed[b] && (stage.empty() || stage == name))
       {
-        find_block_positions(state, now);
+        find_block_motion(state, now);
         interface.attach(line, state);
         now.placed[b] = 1;
       }
@@ -177,7 +177,7 @@ namespace quoin
         by_point(n_points, dealii::Tensor<1, 2>());
     EnergyAccounts unused;
     going.stored_joint = 0.;
-    find_block_positions(state, going);
+    find_block_motion(state, going);
     for (const auto &[line, interface] : beams)
       interface.add_forces(line, state, going, unused, lost.data(),
                            by_point.data());
@@ -254,7 +254,7 @@ namespace quoin
     AlignedArray<dealii::Tensor<1, 2>> by_point(n_points,
                                                 dealii::Tensor<1, 2>());
     now.stored_strain = now.stored_joint = 0.;
-    find_block_positions(state, now);
+    find_block_motion(state, now);
     EnergyAccounts lost;
     for (unsigned int b = 0; b < beams.size(); ++b)
       if (now.placed[b])
@@ -286,7 +286,7 @@ namespace quoin
                             std::vector<Eigen::MatrixXd> *stiffness) const
   {
     BeamState &now = state.get<BeamState>();
-    find_block_positions(state, now);
+    find_block_motion(state, now);
     now.stored_strain = now.stored_joint = 0.;
     AlignedArray<dealii::Tensor<1, 2>> by_point(n_points,
                                                 dealii::Tensor<1, 2>());
@@ -316,18 +316,17 @@ namespace quoin
     return result;
   }
 
-  void Beams::find_block_positions(const State<2> &state, BeamState &now) const
+  void Beams::find_block_motion(const State<2> &state, BeamState &now) const
   {
     if (n_points == 0)
       return;
-    auto &result = now.block_position;
+    auto &result = now.block_motion;
     result.assign(2 * n_points, 0.);
     for (const auto &[line, interface] : beams)
       for (unsigned int k = 0; k < interface.points.size(); ++k)
         if (const unsigned int node = interface.points[k].node;
             node != NodeMap<2>::none)
-          set_vector<2>(result, interface.first + k,
-                        state.nodes[node].position());
+          set_vector<2>(result, interface.first + k, state.nodes[node].u);
     MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPI_DOUBLE,
                   MPI_SUM, node_map.communicator());
   }

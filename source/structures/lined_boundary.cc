@@ -72,14 +72,15 @@ namespace quoin
       } while (at != chain.places.front());
       if (chain.places.size() != neighbours.size())
         throw "has several parts." + where;
+      const Place &first = chain.places.front(), &last = chain.places.back();
       double area = 0.;
       for (unsigned int i = 0; i < chain.places.size(); ++i)
       {
         const Place &a = chain.places[i],
                     &b = chain.places[(i + 1) % chain.places.size()];
-        area += a[0] * b[1] - a[1] * b[0];
+        area += (a[0] - first[0]) * (b[1] - first[1])
+                - (a[1] - first[1]) * (b[0] - first[0]);
       }
-      const Place &first = chain.places.front(), &last = chain.places.back();
       const double x = last[0] - first[0], y = last[1] - first[1];
       if (chain.is_closed                    ? area < 0.
           : std::abs(x) > 1e-9 * std::abs(y) ? x < 0.

@@ -35,7 +35,7 @@ namespace quoin
                  "them, or a later one, as its 'Stage'.");
       side = point.side;
       n_here[point.at] += 1;
-      sum[point.at] += vector_at(beams.block_position, first + k);
+      sum[point.at] += vector_at(beams.block_motion, first + k);
     }
     if (line.given.is_liner())
       for (unsigned int i = 0; i < n_here.size(); ++i)
@@ -44,7 +44,8 @@ namespace quoin
           refuse("has no block in a part of it where the stage places the "
                  "liner. Place it before they are excavated, or line another "
                  "curve.");
-        beams.nodes[line.begin + i].X = sum[i] / double(n_here[i]);
+        beams.nodes[line.begin + i].X
+            = line.places[i] + sum[i] / double(n_here[i]);
       }
     for (unsigned int k = 0; k < points.size(); ++k)
       if (const unsigned int p = first + k; beams.attached[p])
@@ -69,11 +70,12 @@ namespace quoin
     for (const unsigned int begin : line.segments_at(at))
       sum += line.segment(begin, beams).direction;
     Gap gap;
-    gap.tangent                    = sum / sum.norm();
-    gap.normal[0]                  = -point.side * gap.tangent[1];
-    gap.normal[1]                  = point.side * gap.tangent[0];
-    const dealii::Tensor<1, 2> way = vector_at(beams.block_position, p)
-                                     - beams.nodes[at].X - beams.nodes[at].u;
+    gap.tangent   = sum / sum.norm();
+    gap.normal[0] = -point.side * gap.tangent[1];
+    gap.normal[1] = point.side * gap.tangent[0];
+    const dealii::Tensor<1, 2> way
+        = (line.places[point.at] - beams.nodes[at].X)
+          + (vector_at(beams.block_motion, p) - beams.nodes[at].u);
     gap.opening = gap.normal * way - beams.offset[p][0];
     gap.slip    = gap.tangent * way - beams.offset[p][1];
     return gap;

@@ -26,7 +26,7 @@ namespace quoin
 
   /**
    * Finds the nodes of @p beam in equilibrium under the @p loads of its nodes
-   * [N] with blocks at BeamState::block_position, by Newton's method from the
+   * [N] with blocks at BeamState::block_motion, by Newton's method from the
    * last equilibrium @p beams, which becomes the new one; adds dissipation and
    * work of the loads to @p energy. @p model_size: which positions are rounded
    * by [m]; @p state: tells which blocks are absent. Returns false if there is

@@ -24,15 +24,17 @@ namespace quoin
     AlignedArray<dealii::Tensor<1, 2>> offset;
     JointHistory interface; /**< of the interface points */
     // What the last step leaves behind.
-    AlignedArray<double> block_position;     /**< x, y of these points [m] */
-    AlignedArray<dealii::Tensor<1, 2>> load; /**< of equilibrium [N] */
+    /** Displacement of blocks at these points, from BeamLine::places: positions
+        far from the origin have fewer digits [m]. */
+    AlignedArray<double> block_motion;
+    AlignedArray<dealii::Tensor<1, 2>> load;      /**< of equilibrium [N] */
     double stored_strain = 0., stored_joint = 0.; /**< [J] */
 
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
       visitor.same(placed, nodes, velocity, plastic, moment, attached, offset,
-                   block_position, load, stored_strain, stored_joint);
+                   block_motion, load, stored_strain, stored_joint);
       visitor.same(interface.normal_traction, interface.shear_traction,
                    interface.plastic_slip, interface.plastic_opening,
                    interface.state);

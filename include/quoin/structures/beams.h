@@ -108,8 +108,8 @@ namespace quoin
   private:
     /** Share of the given loads of the beam @p b at @p time [-]. */
     double grown(unsigned int b, const TimePoint &time) const;
-    /** Finds BeamState::block_position. Collective. */
-    void find_block_positions(const State<2> &state, BeamState &now) const;
+    /** Finds BeamState::block_motion. Collective. */
+    void find_block_motion(const State<2> &state, BeamState &now) const;
     /** Adds the opposite of @p by_point to owned nodes of blocks. */
     void add_block_forces(const AlignedArray<dealii::Tensor<1, 2>> &by_point,
                           dealii::Tensor<1, 2> *block_force) const;

@@ -29,7 +29,7 @@ namespace quoin
     };
 
     /** Connects the liner to the blocks that are there, at the positions of
-        BeamState::block_position, where its nodes are placed. Throws an
+        BeamState::block_motion, where its nodes are placed. Throws an
         InputError if they are on both sides or not everywhere. */
     void attach(const BeamLine &line, State<2> &state) const;
     /** Whether point @p k connects the liner to a block. */
@@ -38,7 +38,7 @@ namespace quoin
     {
       return beams.attached[first + k] && !state.is_absent(points[k].block);
     }
-    /** Gap at point @p k, whose block is at BeamState::block_position. */
+    /** Gap at point @p k, whose block is at BeamState::block_motion. */
     Gap gap(const BeamLine &line, unsigned int k, const BeamState &beams) const;
     /** Bound of the stiffness at both nodes of point @p k [N/m]. */
     double stiffness_bound(unsigned int k) const;

@@ -18,10 +18,11 @@ using quoin::test::TestNodes;
 
 namespace
 {
-  /** A square of 1 m, the block above the liner, whose curve is "wall". */
-  BlockMesh<2> block()
+  /** A square of 1 m, the block above the liner, whose curve is "wall";
+      @p x, @p y: its lower left corner [m]. */
+  BlockMesh<2> block(const double x = 0., const double y = 0.)
   {
-    return quoin::test::rectangle(0., 0., 1., 1., { "", "wall", "other" },
+    return quoin::test::rectangle(x, y, x + 1., y + 1., { "", "wall", "other" },
                                   { 1, 1, 1, 2 });
   }
 
@@ -38,7 +39,7 @@ namespace
 
   struct Model
   {
-    const BlockMesh<2> mesh = block();
+    const BlockMesh<2> mesh;
     const TestNodes nodes{ mesh };
     std::vector<JointSetParameters> sets;
     State<2> state;
@@ -47,7 +48,9 @@ namespace
 
     explicit Model(const BeamParameters &beam,
                    const JointStrength &strength    = { 1e30, 0., 1e30 },
-                   const double thickness_of_blocks = 1.)
+                   const double thickness_of_blocks = 1.,
+                   const BlockMesh<2> &mesh         = block())
+      : mesh(mesh)
     {
       CoulombLaw law;
       law.normal_stiffness = 3e9;
@@ -226,6 +229,27 @@ TEST(Beams, ForcesAreTheDerivativeOfTheEnergy)
       u                  = 0.;
       EXPECT_NEAR(force[i][d], -(above - below) / (2. * h), 1e-3 * 3e9 * 1e-6);
     }
+}
+
+// Where a map has them coordinates have no digits for the gaps of a liner.
+TEST(Beams, LinersFarFromTheOrigin)
+{
+  BeamParameters beam = section();
+  beam.boundary       = "wall";
+  beam.interface      = "bond";
+  AlignedArray<dealii::Tensor<1, 2>> force[2];
+  for (const bool is_far : { false, true })
+  {
+    Model model(beam, { 1e30, 0., 1e30 }, 1.,
+                is_far ? block(3.5e6, 4.5e6) : block());
+    for (unsigned int i = 0; i < 4; ++i)
+      model.state.nodes[i].u = dealii::Point<2>(1e-8 * i, 1.7e-8 * i * i);
+    model.energy(force[is_far]);
+  }
+  for (unsigned int i = 0; i < 4; ++i)
+    for (unsigned int d = 0; d < 2; ++d)
+      EXPECT_NEAR(force[1][i][d], force[0][i][d], 1e-6);
+  EXPECT_GT(force[0][3].norm(), 10.);
 }
 
 TEST(Beams, CondensedStiffnessIsThatOfTheForces)
