@@ -160,8 +160,8 @@ namespace quoin
       const bool row_is_due = outputs.row_is_due(state.time, dt);
       typename ExplicitSolver<dim>::Requests requests;
       requests.energies = row_is_due || may_be_last(balance);
-      requests.balance
-          = balance || (row_is_due && outputs.histories().need_balance());
+      requests.balance  = balance;
+      requests.ratio    = row_is_due && outputs.histories().need_balance();
       if (requests.energies)
         this->before_row();
       try

@@ -466,7 +466,8 @@ namespace quoin
   template <int dim>
   double CentralDifferences<dim>::unbalanced_ratio(State<dim> &state,
                                                    const StepContext &context,
-                                                   StepSums sums) const
+                                                   StepSums sums,
+                                                   const bool kept) const
   {
     /** Part of the largest applied force below which it has been taken away. */
     constexpr double unloaded = 1e-3;
@@ -498,8 +499,9 @@ namespace quoin
     for (const MotionConstraint<dim> *constraint : constraints)
       if (const RigidMotion<dim> *body = constraint->rigid_motion())
         all[1] += body->unbalanced();
-    double &largest      = state.template get<LargestForce>().applied;
-    largest              = std::max(largest, all[0]);
+    double &largest = state.template get<LargestForce>().applied;
+    if (kept)
+      largest = std::max(largest, all[0]);
     const double applied = std::max(all[0], unloaded * largest);
     return applied > 0. ? all[1] / applied : 0.;
   }

@@ -499,7 +499,7 @@ namespace quoin
     // 2. Forces of contacts, joints and loads on all nodes.
     add_forces(state, context, requests, sums);
     // 3. Forces of blocks and motion of their nodes.
-    stepper.advance_blocks(state, context, requests.balance, sums);
+    stepper.advance_blocks(state, context, requests.any_ratio(), sums);
     // 4. Rigid blocks and beams.
     advance_rigid_blocks(state, context, sums);
     advance_beams(state, context, sums);
@@ -535,7 +535,7 @@ namespace quoin
       velocity_before = state.velocity;
       rigid_before    = state.template get<RigidBlockStates>();
     }
-    if (requests.balance)
+    if (requests.any_ratio())
       sums.applied = stepper.applied_force();
   }
 
@@ -637,9 +637,11 @@ namespace quoin
     }
     if (context.dt_before != context.dt)
       account_for_new_step(state, context);
+    if (requests.any_ratio())
+      state.unbalanced_ratio
+          = stepper.unbalanced_ratio(state, context, sums, requests.balance);
     if (requests.balance)
     {
-      state.unbalanced_ratio = stepper.unbalanced_ratio(state, context, sums);
       this->check_finite(state);
       check_cells(model, state, stage.loads);
       check_time_step(model, state, stage, node_mass, rigid_stage.mass_factor,

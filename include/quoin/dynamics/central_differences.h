@@ -99,10 +99,10 @@ namespace quoin
     double applied_force() const;
     /** Ratio of unbalanced to applied force, of all ranks [-], or to a
         thousandth of the largest applied force of the stage where less is left:
-        without loads both go to zero. Keeps that force in @p state. Collective.
-     */
+        without loads both go to zero. Counts that of now in @p state if it is
+        to be @p kept. Collective. */
     double unbalanced_ratio(State<dim> &state, const StepContext &context,
-                            StepSums sums) const;
+                            StepSums sums, bool kept) const;
     /** Force on @p node by the inertia of @p mass in the last step [N]. */
     dealii::Tensor<1, dim> inertia_force(const NodeMass<dim> &mass) const
     {

@@ -73,9 +73,18 @@ namespace quoin
     struct Requests
     {
       bool energies = false;
-      /** Unbalanced ratio, and checks for NaN, inverted cells and blocks
-          outside the box. */
+      /** Unbalanced ratio, checks for NaN, inverted cells and blocks outside
+          the box, and what follows the balance: every balance_interval steps.
+       */
       bool balance = false;
+      /** Unbalanced ratio for a row alone, which changes nothing that follows.
+       */
+      bool ratio = false;
+
+      bool any_ratio() const
+      {
+        return ratio || balance;
+      }
     };
 
     /**

@@ -6,6 +6,7 @@
 #include <quoin/motions/platen.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
+#include <quoin/dynamics/largest_force.h>
 #include <quoin/dynamics/state_checks.h>
 
 using namespace quoin;
@@ -727,6 +728,28 @@ TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)
   const auto force = a.solver.resultant("base");
   EXPECT_NEAR(b.solver.resultant("base")[0], c * force[0] - s * force[1],
               1e-6 * std::abs(force[0]));
+}
+
+TEST(ExplicitSolver, RowsOfTheUnbalancedRatioLeaveTheStageAlone)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  TestRun run(mesh, two_blocks(1e11, 1e11),
+              { gravity("0", "-10"), motion("base", "bottom", "0", "0") });
+  StageParameters settle = stage_with({ "gravity", "base" });
+  settle.kinetic_limit   = 1e-3;
+  run.begin(settle, 0.5);
+  run.solver.step(run.state, { true, false });
+  run.solver.step(run.state, { true, false });
+  const double growth = run.state.load_rate_growth;
+  run.solver.step(run.state, { true, false, true });
+  EXPECT_GT(run.state.unbalanced_ratio, 0.);
+  EXPECT_NE(run.state.unbalanced_ratio, 1.);
+  EXPECT_EQ(run.state.get<LargestForce>().applied, 0.);
+  EXPECT_EQ(run.state.load_rate_growth, growth);
+  run.solver.step(run.state, { true, true });
+  EXPECT_GT(run.state.get<LargestForce>().applied, 0.);
+  EXPECT_NE(run.state.load_rate_growth, growth);
 }
 
 // What it replaces is held; a load that begins with it is not.
