@@ -174,24 +174,52 @@ namespace quoin
       return false;
     }
 
+    /** Whether the model has joints or contacts of @p set, whichever law they
+        follow. */
+    bool has_joints(const JointSetParameters &set)
+    {
+      return !set.curves.empty() || set.all_new_contacts
+             || !set.new_contacts.empty();
+    }
+
+    /** The first set whose cracks stay open that joints follow in the stage
+        @p index, or null. */
+    const JointSetParameters *mortar_in(const Parameters &parameters,
+                                        const unsigned int index)
+    {
+      const auto &sets = parameters.model.joints;
+      for (const JointSetParameters &set : sets)
+      {
+        if (!has_joints(set))
+          continue;
+        std::string followed = set.name;
+        for (unsigned int i = 0; i <= index; ++i)
+          for (const auto &[changed, other] :
+               parameters.stages[i].joint_properties)
+            if (changed == set.name)
+              followed = other;
+        const auto found = std::find_if(sets.begin(), sets.end(),
+                                        [&](const JointSetParameters &each)
+                                        { return each.name == followed; });
+        if (found == sets.end())
+          continue;
+        if (const auto *law = std::get_if<CompositeLaw>(&found->law);
+            law && !law->cracks_close)
+          return &*found;
+      }
+      return nullptr;
+    }
+
     /** Warns of the first stage with cycles on mortar whose cracks do not
         close. */
     void check_cycles(const Parameters &parameters, Advice &advice)
     {
-      const auto &sets = parameters.model.joints;
-      const auto set
-          = std::find_if(sets.begin(), sets.end(),
-                         [](const JointSetParameters &each)
-                         {
-                           const auto *law
-                               = std::get_if<CompositeLaw>(&each.law);
-                           return law && !law->cracks_close;
-                         });
-      if (set == sets.end())
-        return;
       for (unsigned int i = 0; i < parameters.stages.size(); ++i)
         for (const LoadParameters &load : parameters.loads)
         {
+          const JointSetParameters *set = mortar_in(parameters, i);
+          if (!set)
+            continue;
           const StageParameters &stage = parameters.stages[i];
           if (stage.end != StageEnd::time || !names_load(stage, load.name)
               || !goes_to_and_fro(load, stage,
