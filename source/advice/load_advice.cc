@@ -446,6 +446,49 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** Warns of flow in joints into which nothing brings water, and of
+        pressures that are nothing beside those of water as high as the model,
+        @p height [m]. */
+    void check_given_water(const Parameters &parameters, const double height,
+                           Advice &advice)
+    {
+      /** The largest pressure below which kPa may have been meant [Pa], and by
+          that of water as high as the model [-]. */
+      constexpr double few_pascals = 1e3, small_share = 0.01;
+      const WaterParameters &water = parameters.water;
+      Checks checks(advice, "section 'Water boundaries': ");
+      checks.warn_if(
+          water.flow == FlowKind::steady && !water.fluid.has_free_surface
+              && water.boundaries.empty(),
+          "'Names' is empty, so that no water enters the joints: steady flow "
+          "has no pressure anywhere. Give a place with a head or a pressure.");
+      double largest = 0.;
+      for (const WaterBoundary &boundary : water.boundaries)
+      {
+        if (boundary.quantity == WaterQuantity::outlet)
+          continue;
+        if (boundary.quantity != WaterQuantity::pressure)
+          return;
+        for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+          for (const double share : { 0., 0.5, 1. })
+          {
+            const double time  = share * parameters.stages[i].duration,
+                         total = start_of_stage(parameters.stages, i) + time;
+            largest
+                = std::max(largest, std::abs(boundary.value({ time, total })));
+          }
+      }
+      checks.warn_if(
+          largest > 0. && largest < few_pascals
+              && largest < small_share * water.fluid.unit_weight * height,
+          "pressures are ", largest, " Pa at most, those of ",
+          largest / water.fluid.unit_weight, " m of water, in a model that is ",
+          height, " m high. Pressures are in Pa: 50e3, not 50, for 50 kPa.");
+    }
+  } // namespace
+
   template <int dim>
   void check_pressures(const Parameters &parameters, const NodeMap<dim> &nodes,
                        Advice &advice)
@@ -499,11 +542,13 @@ namespace quoin
               "is positive; a traction on faces from outside has the signs "
               "of 'Horizontal' and 'Vertical'.");
     }
-    if (parameters.water.flow != FlowKind::none)
-      for (const WaterBoundary &boundary : parameters.water.boundaries)
-        if (boundary.quantity == WaterQuantity::head)
-          check_level("water boundary " + boundary.name + ": ", "the head of ",
-                      boundary.value);
+    if (parameters.water.flow == FlowKind::none)
+      return;
+    for (const WaterBoundary &boundary : parameters.water.boundaries)
+      if (boundary.quantity == WaterQuantity::head)
+        check_level("water boundary " + boundary.name + ": ", "the head of ",
+                    boundary.value);
+    check_given_water(parameters, top - bottom, advice);
   }
 
   template void check_pressures(const Parameters &, const NodeMap<2> &,

@@ -330,6 +330,69 @@ namespace quoin
                      "'Vertical = force -1e5', if that is not meant.");
     }
 
+    /** Whether @p component is a motion or a force that is not zero for ever.
+     */
+    bool drives(const LoadComponent &component)
+    {
+      return component.quantity != LoadQuantity::free
+             && (component.field || !component.value.is_constant()
+                 || component.value({ 0., 0. }) != 0.);
+    }
+
+    /** Warns of a model in which all is at rest for ever. */
+    void check_driven(const Parameters &parameters, Advice &advice)
+    {
+      const auto load_drives = [&](const LoadParameters &load)
+      {
+        const auto given = load.given_components();
+        return std::any_of(
+                   parameters.stages.begin(), parameters.stages.end(),
+                   [&](const StageParameters &stage)
+                   {
+                     return names_load(stage, load.name)
+                            || (stage.pattern
+                                && is_among(load.name, stage.pattern->loads));
+                   })
+               && std::any_of(given.begin(), given.end(),
+                              [](const auto &each)
+                              { return drives(each.component); });
+      };
+      const auto beam_drives = [](const BeamParameters &beam)
+      {
+        const auto is_force = [](const TimeFunction &part) {
+          return !part.is_constant() || part({ 0., 0. }) != 0.;
+        };
+        return std::any_of(beam.distributed.begin(), beam.distributed.end(),
+                           is_force)
+               || std::any_of(
+                   beam.forces.begin(), beam.forces.end(),
+                   [&](const auto &end)
+                   { return std::any_of(end.begin(), end.end(), is_force); });
+      };
+      const auto &loads  = parameters.loads;
+      const auto &beams  = parameters.beams;
+      const auto &cables = parameters.model.cables;
+      const auto &named  = parameters.named_blocks;
+      const bool is_driven
+          = !parameters.model.initial_stresses.empty()
+            || parameters.initial_motion.is_given()
+            || !parameters.boundary.waves.empty()
+            || parameters.water.flow != FlowKind::none
+            || std::any_of(loads.begin(), loads.end(), load_drives)
+            || std::any_of(beams.begin(), beams.end(), beam_drives)
+            || std::any_of(cables.begin(), cables.end(),
+                           [](const CableParameters &cable)
+                           { return cable.pretension != 0.; })
+            || std::any_of(named.begin(), named.end(),
+                           [](const NamedBlock &block)
+                           { return block.moves(); });
+      Checks(advice, "")
+          .warn_if(!is_driven,
+                   "nothing moves this model: no stage names a load that is a "
+                   "force or a motion, and there is no initial stress, motion, "
+                   "wave or water. Name loads in 'Loads' of the stages.");
+    }
+
     /** Whether a stage or what is beyond a boundary takes @p material. */
     bool is_for_later(const MaterialParameters &material,
                       const Parameters &parameters)
@@ -464,6 +527,7 @@ namespace quoin
     check_ended_loads(parameters, model.nodes(), advice);
     check_late_supports(parameters, advice);
     check_free_platens(parameters, advice);
+    check_driven(parameters, advice);
     check_release(parameters.stages, advice);
     check_failure_displacement(parameters.stages,
                                model.nodes().table().diagonal(), advice);
