@@ -163,9 +163,7 @@ TEST(HighestFrequency, IsThatOfTheAssembledOperator)
 
 TEST(HighestFrequency, IsFoundOnceForOneStiffnessAndMass)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 8, 4);
-  const TestNodes nodes(mesh);
+  const TestNodes nodes(make_stack(8, 4));
   std::vector<KnownFrequency> known;
   std::vector<double> mass;
   const auto find = [&](const double kn, const double mass_factor)
