@@ -107,8 +107,10 @@ def displacement_at(blocks, places):
                             cross(c - place, a - place),
                             cross(a - place, b - place)]) / area
         cell = weights.min(axis=0).argmax()
-        found[k] = weights[:, cell] @ blocks.point_data["displacement"][
-            blocks.cells[cell]]
+        # A block that was not there then counts from its own beginning.
+        found[k] = 0.0 if weights[:, cell].min() < -0.1 else (
+            weights[:, cell] @ blocks.point_data["displacement"][
+                blocks.cells[cell]])
     return found
 
 

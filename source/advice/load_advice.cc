@@ -459,9 +459,13 @@ namespace quoin
       constexpr double few_pascals = 1e3, small_share = 0.01;
       const WaterParameters &water = parameters.water;
       Checks checks(advice, "section 'Water boundaries': ");
+      // At the walls of an excavation the pressure is zero.
+      const bool has_walls = std::any_of(
+          parameters.stages.begin(), parameters.stages.end(),
+          [](const StageParameters &stage) { return !stage.excavate.empty(); });
       checks.warn_if(
           water.flow == FlowKind::steady && !water.fluid.has_free_surface
-              && water.boundaries.empty(),
+              && water.boundaries.empty() && !has_walls,
           "'Names' is empty, so that no water enters the joints: steady flow "
           "has no pressure anywhere. Give a place with a head or a pressure.");
       double largest = 0.;
@@ -469,16 +473,10 @@ namespace quoin
       {
         if (boundary.quantity == WaterQuantity::outlet)
           continue;
-        if (boundary.quantity != WaterQuantity::pressure)
+        if (boundary.quantity != WaterQuantity::pressure
+            || !boundary.value.is_constant())
           return;
-        for (unsigned int i = 0; i < parameters.stages.size(); ++i)
-          for (const double share : { 0., 0.5, 1. })
-          {
-            const double time  = share * parameters.stages[i].duration,
-                         total = start_of_stage(parameters.stages, i) + time;
-            largest
-                = std::max(largest, std::abs(boundary.value({ time, total })));
-          }
+        largest = std::max(largest, std::abs(boundary.value({ 0., 0. })));
       }
       checks.warn_if(
           largest > 0. && largest < few_pascals

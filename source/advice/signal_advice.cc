@@ -174,12 +174,16 @@ namespace quoin
       return false;
     }
 
-    /** Whether the model has joints or contacts of @p set, whichever law they
-        follow. */
-    bool has_joints(const JointSetParameters &set)
+    /** Whether the model has joints, contacts or liners of @p set, whichever
+        law they follow. */
+    bool has_joints(const Parameters &parameters, const JointSetParameters &set)
     {
+      const auto &beams = parameters.beams;
       return !set.curves.empty() || set.all_new_contacts
-             || !set.new_contacts.empty();
+             || !set.new_contacts.empty()
+             || std::any_of(beams.begin(), beams.end(),
+                            [&](const BeamParameters &beam)
+                            { return beam.interface == set.name; });
     }
 
     /** The first set whose cracks stay open that joints follow in the stage
@@ -190,7 +194,7 @@ namespace quoin
       const auto &sets = parameters.model.joints;
       for (const JointSetParameters &set : sets)
       {
-        if (!has_joints(set))
+        if (!has_joints(parameters, set))
           continue;
         std::string followed = set.name;
         for (unsigned int i = 0; i <= index; ++i)

@@ -216,10 +216,18 @@ namespace quoin
       // The start is in few eigenvectors, of which all are found.
       if (diagonal.size() >= n || beta <= 1e-8 * std::abs(diagonal[0]))
         break;
-      if (beside.empty())
-        for (const KnownFrequency &frequency : known)
-          if (frequency.diagonal == alpha && frequency.beside == beta)
-            return frequency.squared;
+      if (beside.empty() && !known.empty())
+      {
+        unsigned int k = 0;
+        while (k < known.size()
+               && (known[k].diagonal != alpha || known[k].beside != beta))
+          ++k;
+        // All ranks go on or none, even if their sums differed by rounding.
+        if (const unsigned int found
+            = dealii::Utilities::MPI::max(k, communicator);
+            found < known.size())
+          return known[found].squared;
+      }
       beside.push_back(beta);
       before = v;
       v      = w / beta;

@@ -334,18 +334,20 @@ namespace quoin
               { nodes.exchange().local(global), all[2 * k + 1] });
     }
 
-    /** Considers cells by their centroids; at the border of blocks those with
-        the smallest absence alone. Collective. */
+    /** Considers cells by their centroids; in or at the border of blocks those
+        with the smallest absence of these alone. Collective. */
     template <int dim>
     void consider_cells(const Model<dim> &model,
                         const std::vector<double> &absence,
                         Nearest<dim> &nearest)
     {
-      const NodeMap<dim> &nodes = model.nodes();
-      const double least        = least_absence(nodes, absence, nearest.point);
+      const NodeMap<dim> &nodes  = model.nodes();
+      const double least         = least_absence(nodes, absence, nearest.point);
+      const bool lies_in_a_block = least < std::numeric_limits<double>::max();
       for (unsigned int c = 0; c < nodes.cells().size(); ++c)
       {
-        if (absence_of_cell(nodes, absence, c) > least)
+        // A place in a lining is not in the rock, whose cells may be nearer.
+        if (lies_in_a_block && absence_of_cell(nodes, absence, c) != least)
           continue;
         dealii::Point<dim> centroid;
         for (const auto &corner : corners(nodes, c))

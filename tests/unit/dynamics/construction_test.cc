@@ -100,9 +100,8 @@ namespace
 
 TEST(Construction, AbsenceIsTheShareOfStagesAndMoreInTheEnd)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
-  const auto absence_of = [&](const std::vector<StageParameters> &stages,
+  const BlockMesh<2> mesh = make_stack(3, 2);
+  const auto absence_of   = [&](const std::vector<StageParameters> &stages,
                               const std::vector<std::string> &at_start = {})
   {
     ModelParameters parameters = without_stress();

@@ -732,8 +732,7 @@ TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)
 
 TEST(ExplicitSolver, RowsOfTheUnbalancedRatioLeaveTheStageAlone)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  const BlockMesh<2> mesh = make_stack(2, 2);
   TestRun run(mesh, two_blocks(1e11, 1e11),
               { gravity("0", "-10"), motion("base", "bottom", "0", "0") });
   StageParameters settle = stage_with({ "gravity", "base" });

@@ -95,8 +95,7 @@ TEST(Histories, OnAWallTheyAreOfTheBlockThatIsThereLonger)
 // Beside the wall of a lining the node of the wall is the nearest.
 TEST(Histories, InABlockThatIsPlacedTheyAreOfIt)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  const BlockMesh<2> mesh = make_stack(3, 2);
   TestRun run(mesh, two_blocks(), {});
   HistoryParameters wanted;
   wanted.quantity = HistoryQuantity::displacement;
@@ -110,6 +109,17 @@ TEST(Histories, InABlockThatIsPlacedTheyAreOfIt)
     for (const auto &[node, weight] : at.nodes)
       EXPECT_EQ(run.model.nodes().block_of_node(node), placed);
   }
+  // Cells of the other block may be nearer.
+  wanted.quantity = HistoryQuantity::stress;
+  for (const unsigned int placed : { 0U, 1U })
+    for (const double depth : { 0.001, 0.3 })
+    {
+      std::vector<double> absence(2, 0.);
+      absence[placed]       = 0.5;
+      wanted.point          = { { 1.02, 2. + (placed == 0 ? -depth : depth) } };
+      const HistoryPoint at = find_history_point(run.model, wanted, absence);
+      EXPECT_EQ(run.model.nodes().blocks().block_of_cell(at.entity), placed);
+    }
 }
 
 TEST(Histories, WhereAJointCrossesAWallTheyAreOfThePartThatIsThereLonger)
@@ -125,8 +135,7 @@ TEST(Histories, WhereAJointCrossesAWallTheyAreOfThePartThatIsThereLonger)
       if (i == 1)
         add_curve(data, "wall", x, y, x, y + 2.);
     }
-  BlockMesh<2> mesh;
-  split_into_blocks(data, {}, mesh);
+  const BlockMesh<2> mesh    = split_into_blocks(data, {});
   ModelParameters parameters = two_blocks();
   parameters.joints
       = { elastic_joint(2e10, 1e10, "bed"), elastic_joint(2e10, 1e10, "wall") };

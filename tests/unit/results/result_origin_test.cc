@@ -108,8 +108,7 @@ namespace
 
 TEST(ResultOrigin, ContactsCountFromItAsTheBlocksDo)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 3, 2);
+  const BlockMesh<2> mesh                = make_stack(3, 2);
   ModelParameters parameters             = two_blocks();
   JointSetParameters &joint              = parameters.joints[0];
   joint.all_new_contacts                 = true;
@@ -154,8 +153,7 @@ TEST(ResultOrigin, ContactsCountFromItAsTheBlocksDo)
 
 TEST(ResultOrigin, BarsCountFromItAsTheBlocksDo)
 {
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 2);
+  const BlockMesh<2> mesh = make_stack(2, 2);
   const dealii::Point<2> head(0.3, 3.7), far(1.6, 0.2);
   CableParameters cable;
   cable.element_length       = 0.25;
