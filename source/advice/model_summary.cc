@@ -51,8 +51,11 @@ namespace quoin
         const bool ends = stage.end == StageEnd::time;
         const double duration
             = ends ? stage.duration : std::max(stage.minimum_duration, 1.);
-        for (const double v : sampled(value, duration, 513))
-          values.push_back(v);
+        if (component.value.is_constant())
+          values.push_back(value(0.));
+        else
+          for (const double v : extremes(value, duration))
+            values.push_back(v);
         if (!ends)
           values.push_back(value(late_time));
       }

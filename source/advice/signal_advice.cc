@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/advice/signal_advice.h>
+#include <quoin/signals/signal_frequency.h>
 
 #include <algorithm>
 #include <array>
@@ -260,10 +261,8 @@ namespace quoin
         return;
       const auto largest = [&](const auto &value)
       {
-        double most = 0.;
-        for (unsigned int i = 0; i < n_samples; ++i)
-          most = std::max(most, std::abs(value(end * i / (n_samples - 1))));
-        return most;
+        const auto [low, high] = extremes(value, end);
+        return std::max(-low, high);
       };
       for (const IncidentWaveParameters &wave : parameters.boundary.waves)
         if (wave.n_integrations == 1 && wave.signal.value

@@ -39,6 +39,10 @@ namespace quoin
                { "pressure", "Pa", SignalKind::velocity, curve.pressure } };
     }
 
+    /** Steps in which waves are integrated from their accelerations or
+        velocities. */
+    constexpr unsigned int n_intervals = 16384;
+
     /** Smallest and largest value in the middle of elements. */
     std::array<double, 2> range_on(const SpaceTimeFunction &function,
                                    const std::vector<dealii::Point<2>> &middles,
@@ -47,10 +51,17 @@ namespace quoin
       std::vector<double> values;
       const std::size_t n = function.depends_on_place() ? middles.size() : 1;
       for (std::size_t i = 0; i < n; ++i)
-        for (const double value :
-             sampled([&](const double t) { return function(middles[i], t); },
-                     duration, function.depends_on_time() ? 513 : 2))
-          values.push_back(value);
+      {
+        const FunctionOfTime there
+            = [&](const double t) { return function(middles[i], t); };
+        if (n > 1 || !function.depends_on_time())
+          for (const double value :
+               sampled(there, duration, function.depends_on_time() ? 513 : 2))
+            values.push_back(value);
+        else
+          for (const double value : extremes(there, duration))
+            values.push_back(value);
+      }
       const auto [low, high]
           = std::minmax_element(values.begin(), values.end());
       return { { *low, *high } };
@@ -137,16 +148,14 @@ namespace quoin
     {
       if (duration == 0.)
         break;
-      const bool is_source = wave.type == IncidentWaveType::line_source;
-      const auto values = sampled(wave.function(0., duration, duration / 512.),
-                                  duration, 513);
-      const auto [low, high]
-          = std::minmax_element(values.begin(), values.end());
-      lines.push_back(
-          text_of("incident wave ", wave.name, ": ", wave.type_text(),
-                  wave.half_plane ? " in the half-plane" : "",
-                  is_source ? ", moment " : ", displacement ",
-                  range_text(*low, *high), is_source ? " N" : " m"));
+      const bool is_source   = wave.type == IncidentWaveType::line_source;
+      const auto [low, high] = extremes(
+          wave.function(0., duration, duration / n_intervals), duration);
+      lines.push_back(text_of("incident wave ", wave.name, ": ",
+                              wave.type_text(),
+                              wave.half_plane ? " in the half-plane" : "",
+                              is_source ? ", moment " : ", displacement ",
+                              range_text(low, high), is_source ? " N" : " m"));
     }
     return lines;
   }
@@ -156,7 +165,6 @@ namespace quoin
                   const BoundaryGeometry &geometry, const double duration,
                   const bool with_stress)
   {
-    constexpr unsigned int n_intervals = 16384;
     Shaking fastest;
     for (const IncidentWaveParameters &wave : settings.waves)
       fastest.take_faster(

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <utility>
 
 namespace quoin
@@ -19,6 +20,56 @@ namespace quoin
     for (unsigned int i = 0; i < n; ++i)
       samples[i] = function(duration * i / (n - 1));
     return samples;
+  }
+
+  namespace
+  {
+    /** Largest value of @p function that a search by thirds finds between
+        @p begin and @p end [s]. */
+    double peak_between(const FunctionOfTime &function, double begin,
+                        double end)
+    {
+      constexpr unsigned int n_thirds = 40;
+      double peak = -std::numeric_limits<double>::infinity();
+      for (unsigned int i = 0; i < n_thirds; ++i)
+      {
+        const double third          = (end - begin) / 3.;
+        const double one            = function(begin + third),
+                     other          = function(end - third);
+        peak                        = std::max({ peak, one, other });
+        (one < other ? begin : end) = one < other ? begin + third : end - third;
+      }
+      return peak;
+    }
+  } // namespace
+
+  std::array<double, 2> extremes(const FunctionOfTime &function,
+                                 const double duration)
+  {
+    constexpr unsigned int n_intervals = 16384;
+    const auto time
+        = [&](const unsigned int i) { return duration * i / n_intervals; };
+    std::array<double, 2> result;
+    for (unsigned int side = 0; side < 2; ++side)
+    {
+      const double sign           = side == 0 ? -1. : 1.;
+      const FunctionOfTime rising = [&](const double t)
+      {
+        const double value = sign * function(t);
+        return std::isnan(value) ? -std::numeric_limits<double>::infinity()
+                                 : value;
+      };
+      const auto samples = sampled(rising, duration, n_intervals + 1);
+      const auto largest = std::max_element(samples.begin(), samples.end());
+      const auto i       = static_cast<unsigned int>(largest - samples.begin());
+      result[side]
+          = sign
+                * std::max(*largest,
+                           peak_between(rising, time(i > 0 ? i - 1 : 0),
+                                        time(std::min(i + 1, n_intervals))))
+            + 0.; // no negative zero
+    }
+    return result;
   }
 
   std::vector<double> derivative(const std::vector<double> &samples,
@@ -115,18 +166,26 @@ namespace quoin
   double velocity_frequency(const FunctionOfTime &function,
                             const SignalKind kind, const double duration)
   {
-    // A power of two plus one, for fast transforms.
-    constexpr unsigned int n = 16385;
-    const double interval    = duration / (n - 1);
-    auto samples             = sampled(function, duration, n);
-    if (!std::all_of(samples.begin(), samples.end(),
-                     [](const double v) { return std::isfinite(v); }))
-      return 0.;
-    if (kind == SignalKind::displacement)
-      samples = derivative(samples, interval);
-    else if (kind == SignalKind::acceleration)
-      samples = integral(samples, interval);
-    return highest_frequency(std::move(samples), interval);
+    // Powers of two, for fast transforms.
+    constexpr unsigned int fewest = 1U << 14, most = 1U << 20;
+    /** Share of the highest frequency that samples know, above which there may
+        be others that they do not know. */
+    constexpr double known_share = 0.5;
+    for (unsigned int n = fewest;; n *= 4)
+    {
+      const double interval = duration / n;
+      auto samples          = sampled(function, duration, n + 1);
+      if (!std::all_of(samples.begin(), samples.end(),
+                       [](const double v) { return std::isfinite(v); }))
+        return 0.;
+      if (kind == SignalKind::displacement)
+        samples = derivative(samples, interval);
+      else if (kind == SignalKind::acceleration)
+        samples = integral(samples, interval);
+      const double frequency = highest_frequency(std::move(samples), interval);
+      if (n >= most || frequency < known_share * 0.5 / interval)
+        return frequency;
+    }
   }
 
   void Shaking::take_faster(const std::string &other_name,

@@ -4,6 +4,7 @@
 #ifndef quoin_signals_signal_frequency_h
 #define quoin_signals_signal_frequency_h
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,6 +19,15 @@ namespace quoin
   /** @p function at @p n times from 0 to @p duration, ends included. */
   std::vector<double> sampled(const FunctionOfTime &function, double duration,
                               unsigned int n);
+
+  /**
+   * Smallest and largest value of @p function from 0 to @p duration [s]: those
+   * of many samples, as of a record, and of what is between the neighbours of
+   * both, such as the peak of a pulse that is much shorter than the duration.
+   * Values that are no numbers do not count.
+   */
+  std::array<double, 2> extremes(const FunctionOfTime &function,
+                                 double duration);
 
   /** Differences of @p samples, @p interval [s] apart, over the interval. */
   std::vector<double> derivative(const std::vector<double> &samples,
@@ -57,7 +67,8 @@ namespace quoin
   };
 
   /** highest_frequency() of the velocity that belongs to @p function within
-      @p duration [s]; 0 if a value is not finite, an error of the run. */
+      @p duration [s], with as many samples as it needs; 0 if a value is not
+     finite, an error of the run. */
   double velocity_frequency(const FunctionOfTime &function, SignalKind kind,
                             double duration);
 

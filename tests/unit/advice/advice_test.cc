@@ -389,6 +389,20 @@ TEST(ModelSummary, SaysWhatThereIs)
             "stage stage: loads base, push; lasts 1 s; no damping");
 }
 
+TEST(ModelSummary, PeaksOfPulsesThatAreMuchShorterThanTheirStage)
+{
+  Parameters parameters = good_parameters();
+  parameters.loads[1]   = traction(
+        "push", "top", "pulse exponential 1e-4 2e-3 0.7 times -5e6", "");
+  parameters.stages[0].duration = 20.;
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  const auto loads = load_lines<2>(parameters, TestNodes(mesh));
+  ASSERT_EQ(loads.size(), 2U);
+  EXPECT_EQ(loads[1], "load push: traction on 4 nodes of top, horizontal from "
+                      "-5e+06 to 0 Pa");
+}
+
 TEST(ModelSummary, FacesOfJointsInThreeDimensions)
 {
   // Two squares of two triangles.

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 using namespace quoin;
@@ -64,6 +65,28 @@ TEST(SignalFrequency, WhatOnlyGrowsHasNone)
   EXPECT_EQ(frequency([](const double t) { return 3. + 2. * t; }, 2.), 0.);
   // A ramp that ends, over a tenth of the time.
   EXPECT_LT(frequency([](const double t) { return std::min(t, 0.1); }, 1.), 6.);
+}
+
+TEST(SignalFrequency, OfAPulseThatIsMuchShorterThanItsTime)
+{
+  // 99 % of the energy of sin(pi t/T) for 0 < t < T is below 1.18/T, however
+  // long nothing happens afterwards.
+  const double pulse = 2e-3;
+  for (const double duration : { 0.1, 20. })
+    EXPECT_NEAR(velocity_frequency(half_sine_pulse(pulse).value,
+                                   SignalKind::velocity, duration),
+                1.18 / pulse, 0.02 / pulse);
+}
+
+TEST(SignalFrequency, ExtremesOfAPulseThatIsMuchShorterThanItsTime)
+{
+  const Signal pulse = exponential_pulse(1e-4, 2e-3);
+  const auto late = [&](const double t) { return -5. * pulse.value(t - 1.5); };
+  const auto [low, high] = extremes(late, 20.);
+  EXPECT_NEAR(low, -5., 1e-6);
+  EXPECT_EQ(high, 0.);
+  const auto ramp = [](const double t) { return std::min(1., t); };
+  EXPECT_EQ(extremes(ramp, 4.), (std::array<double, 2>{ { 0., 1. } }));
 }
 
 TEST(SignalFrequency, IntegralAndDerivativeAreInverse)
