@@ -7,6 +7,7 @@
 #include <quoin/base/point_text.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/mesh/global_geometry.h>
+#include <quoin/signals/signal_frequency.h>
 
 #include <algorithm>
 #include <cmath>
@@ -217,8 +218,36 @@ namespace quoin
       return least;
     }
 
-    void check_uplift(const LoadParameters &load, const NodeMap<2> &nodes,
-                      Advice &advice)
+    constexpr const char *heights
+        = "Levels are heights y of the mesh: check them and the height of the "
+          "model.";
+
+    /** Largest value of @p function in the stages that @p acts holds of;
+        infinite without stages. */
+    template <typename Acts>
+    double highest(const Parameters &parameters, const TimeFunction &function,
+                   const Acts &acts)
+    {
+      double result = -far_away;
+      for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+      {
+        const StageParameters &stage = parameters.stages[i];
+        if (!acts(stage))
+          continue;
+        const double start = start_of_stage(parameters.stages, i);
+        const auto value   = [&](const double t) {
+          return function({ t, start + t });
+        };
+        if (stage.end == StageEnd::time)
+          result = std::max(result, extremes(value, stage.duration)[1]);
+        else
+          result = std::max({ result, value(0.), value(late_time) });
+      }
+      return result == -far_away ? far_away : result;
+    }
+
+    void check_uplift(const Parameters &parameters, const LoadParameters &load,
+                      const NodeMap<2> &nodes, Advice &advice)
     {
       /** Distance of an end from the joint by its length [-]. */
       constexpr double most = 0.02;
@@ -245,6 +274,46 @@ namespace quoin
             " m lies ", distances[i],
             " m away from its 'Boundary': the pressure would be that "
             "of another place. Give the end of the joint.");
+      const auto acts = [&](const StageParameters &stage)
+      { return names_load(stage, load.name); };
+      const double head = highest(parameters, uplift.headwater, acts),
+                   tail = highest(parameters, uplift.tailwater, acts);
+      checks.warn_if(head < uplift.heel[1], "the headwater of ", head,
+                     " m is below the heel, at a height of ", uplift.heel[1],
+                     " m, so that there is no pressure",
+                     tail < uplift.toe[1] ? "" : " there", ". ", heights);
+    }
+
+    /** Warns of a head of @p boundary that is below all places where it is
+        given. */
+    void check_head(const Parameters &parameters, const WaterBoundary &boundary,
+                    const NodeMap<2> &nodes, Advice &advice)
+    {
+      // With a free surface places above the head are outlets.
+      if (boundary.quantity != WaterQuantity::head
+          || parameters.water.fluid.has_free_surface)
+        return;
+      double lowest = boundary.point ? (*boundary.point)[1] : far_away;
+      std::vector<bool> wanted;
+      for (const std::string &name : nodes.table().face_names)
+        wanted.push_back(is_among(name, boundary.curves));
+      for (const auto &face : gather_faces(nodes, wanted, true))
+        for (const auto &point : face.points)
+          lowest = std::min(lowest, point[1]);
+      const double head = highest(parameters, boundary.value,
+                                  [&](const StageParameters &stage) {
+                                    return parameters.water.acts_in(stage.name);
+                                  });
+      Checks(advice, "water boundary " + boundary.name + ": ")
+          .warn_if(
+              lowest < far_away && head < lowest, "the head of ", head,
+              " m is below its place, whose ",
+              boundary.point ? "height is " : "lowest point is at ", lowest,
+              " m: the water there has a negative pressure",
+              parameters.water.has_suction ? "" : ", which presses on no face",
+              ". ", heights,
+              " Where water only comes out, give 'Quantity = pressure' and "
+              "'Value = 0'.");
     }
   } // namespace
 
@@ -255,7 +324,7 @@ namespace quoin
     {
       if (load.type != LoadType::traction)
         continue;
-      check_uplift(load, nodes, advice);
+      check_uplift(parameters, load, nodes, advice);
       std::string joints, stage;
       if (doubles_water(parameters, nodes, load, joints, stage))
         Checks(advice, "load " + load.name + ": ")
@@ -266,5 +335,8 @@ namespace quoin
                      "them out, or let 'Stages' of section 'Water' name the "
                      "stages without this load.");
     }
+    if (parameters.water.flow != FlowKind::none)
+      for (const WaterBoundary &boundary : parameters.water.boundaries)
+        check_head(parameters, boundary, nodes, advice);
   }
 } // namespace quoin
