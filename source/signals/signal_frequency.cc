@@ -170,7 +170,7 @@ namespace quoin
     constexpr unsigned int fewest = 1U << 14, most = 1U << 20;
     /** Share of the highest frequency that samples know, above which there may
         be others that they do not know. */
-    constexpr double known_share = 0.5;
+    constexpr double known_share = 0.25;
     for (unsigned int n = fewest;; n *= 4)
     {
       const double interval = duration / n;

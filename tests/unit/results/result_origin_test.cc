@@ -153,7 +153,7 @@ TEST(ResultOrigin, ContactsCountFromItAsTheBlocksDo)
 
 TEST(ResultOrigin, BarsCountFromItAsTheBlocksDo)
 {
-  const BlockMesh<2> mesh = make_stack(2, 2);
+  BlockMesh<2> mesh = make_stack(2, 2);
   const dealii::Point<2> head(0.3, 3.7), far(1.6, 0.2);
   CableParameters cable;
   cable.element_length       = 0.25;
