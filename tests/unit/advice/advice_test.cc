@@ -370,7 +370,7 @@ TEST(InputAdvice, GroundThatHasMovedBelowWater)
       = std::make_shared<LoadField>(TimeFunction("3*min(1, T)", "./"));
   parameters.loads[1]        = water;
   parameters.stages[0].loads = { "base", "water" };
-  const BlockMesh<2> mesh = make_stack(3, 2);
+  const BlockMesh<2> mesh    = make_stack(3, 2);
   const TestNodes nodes(mesh);
   const auto warnings = [&](const double displacement)
   {
@@ -427,8 +427,8 @@ TEST(ModelSummary, PeaksOfPulsesThatAreMuchShorterThanTheirStage)
   parameters.loads[1]   = traction(
         "push", "top", "pulse exponential 1e-4 2e-3 0.7 times -5e6", "");
   parameters.stages[0].duration = 20.;
-  const BlockMesh<2> mesh = make_stack(3, 2);
-  const auto loads = load_lines<2>(parameters, TestNodes(mesh));
+  const BlockMesh<2> mesh       = make_stack(3, 2);
+  const auto loads              = load_lines<2>(parameters, TestNodes(mesh));
   ASSERT_EQ(loads.size(), 2U);
   EXPECT_EQ(loads[1], "load push: traction on 4 nodes of top, horizontal from "
                       "-5e+06 to 0 Pa");
