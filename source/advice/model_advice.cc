@@ -369,6 +369,17 @@ namespace quoin
                    [&](const auto &end)
                    { return std::any_of(end.begin(), end.end(), is_force); });
       };
+      const auto boundary_drives = [](const BoundaryCurveParameters &curve)
+      {
+        const auto is_given = [](const SpaceTimeFunction &value)
+        {
+          return value.depends_on_place() || value.depends_on_time()
+                 || value(dealii::Point<2>(), 0.) != 0.;
+        };
+        return std::any_of(curve.value.begin(), curve.value.end(), is_given)
+               || is_given(curve.pressure);
+      };
+      const auto &curves = parameters.boundary.boundaries;
       const auto &loads  = parameters.loads;
       const auto &beams  = parameters.beams;
       const auto &cables = parameters.model.cables;
@@ -378,6 +389,7 @@ namespace quoin
             || parameters.initial_motion.is_given()
             || !parameters.boundary.waves.empty()
             || parameters.water.flow != FlowKind::none
+            || std::any_of(curves.begin(), curves.end(), boundary_drives)
             || std::any_of(loads.begin(), loads.end(), load_drives)
             || std::any_of(beams.begin(), beams.end(), beam_drives)
             || std::any_of(cables.begin(), cables.end(),
