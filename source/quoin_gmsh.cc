@@ -18,6 +18,7 @@
 
 #include <fcntl.h>
 #include <gmsh.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -485,6 +486,10 @@ namespace
   int leave_screen()
   {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    // That one may have ended already: then nobody reads the answer.
+    pollfd answer{ STDOUT_FILENO, 0, 0 };
+    if (poll(&answer, 1, 0) > 0 && (answer.revents & POLLERR) != 0)
+      _exit(1);
     const rlimit none{ 0, 0 };
     setrlimit(RLIMIT_CORE, &none);
     const int output  = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);

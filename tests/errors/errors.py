@@ -1239,6 +1239,43 @@ def gmsh_comes_to_its_end(quoin, folder):
     return printed
 
 
+def gmsh_ends_with_its_run(quoin, folder):
+    """A run that is killed as it starts gmsh leaves none behind."""
+    prm = prepare(folder)
+    with open(os.path.join(folder, "base.geo"), "a") as stream:
+        stream.write("\nMesh.MeshSizeMax = 3e-4;\n") # half a minute and more
+    for _ in range(3):
+        run_of_it = subprocess.Popen([quoin, prm], env=ENVIRONMENT,
+                                     stdout=subprocess.DEVNULL,
+                                     stderr=subprocess.DEVNULL)
+        children = "/proc/%d/task/%d/children" % (run_of_it.pid, run_of_it.pid)
+        found = []
+        deadline = time.monotonic() + 30
+        while not found and time.monotonic() < deadline:
+            with open(children) as stream:
+                found = [int(child) for child in stream.read().split()
+                         if "quoin_gmsh" in words_of(int(child))]
+        run_of_it.kill()
+        run_of_it.wait()
+        if not found:
+            raise Failure("gmsh does not start")
+        deadline = time.monotonic() + 10
+        while words_of(found[0]):
+            if time.monotonic() > deadline:
+                os.kill(found[0], signal.SIGKILL)
+                raise Failure("gmsh goes on without its run")
+            time.sleep(0.02)
+
+
+def words_of(process):
+    """The command of a process; empty if it has ended."""
+    try:
+        with open("/proc/%d/cmdline" % process) as stream:
+            return stream.read()
+    except (FileNotFoundError, ProcessLookupError):
+        return ""
+
+
 def output_is_a_file(quoin, folder):
     """An output directory that is a file."""
     prm = prepare(folder)
@@ -1377,7 +1414,7 @@ FUNCTIONS = [base_case_runs, quiet_run, boundary_begins_in_motion,
              two_runs_at_once, odd_names, file_of_another_system,
              far_from_the_origin, blocks_that_overlap, slivers_of_tetrahedra,
              small_pieces_of_rock,
-             gmsh_comes_to_its_end, output_is_a_file, old_results, changed_inputs,
+             gmsh_comes_to_its_end, gmsh_ends_with_its_run, output_is_a_file, old_results, changed_inputs,
              damaged_checkpoints, full_disk_on_two_ranks]
 
 

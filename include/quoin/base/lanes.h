@@ -153,9 +153,9 @@ namespace quoin
     }
 
     /** Transposes the pairs at base + scale * offset. */
+    template <typename Offset>
     static QUOIN_INLINE void load(const char *base, const std::size_t scale,
-                                  const std::uint32_t *offset, Value &x,
-                                  Value &y)
+                                  const Offset *offset, Value &x, Value &y)
     {
       const Pair p0   = pair(base + scale * offset[0]);
       const Pair p1   = pair(base + scale * offset[1]);
@@ -168,7 +168,8 @@ namespace quoin
     }
 
     /** Adds x, y to the pairs at base + offset, one lane after the other. */
-    static QUOIN_INLINE void add(char *base, const std::uint32_t *offset,
+    template <typename Offset>
+    static QUOIN_INLINE void add(char *base, const Offset *offset,
                                  const Value &x, const Value &y)
     {
       const Value p02 = __builtin_shufflevector(x, y, 0, 4, 2, 6);
@@ -252,15 +253,8 @@ namespace quoin
                                           const std::uint16_t *offset,
                                           Value (&column)[4])
     {
-      for (int half = 0; half < 2; ++half, base += sizeof(Pair))
-      {
-        const Pair p0 = pair(base + offset[0]), p1 = pair(base + offset[1]);
-        const Pair p2 = pair(base + offset[2]), p3 = pair(base + offset[3]);
-        const Value p02      = __builtin_shufflevector(p0, p2, 0, 1, 2, 3);
-        const Value p13      = __builtin_shufflevector(p1, p3, 0, 1, 2, 3);
-        column[2 * half]     = __builtin_shufflevector(p02, p13, 0, 4, 2, 6);
-        column[2 * half + 1] = __builtin_shufflevector(p02, p13, 1, 5, 3, 7);
-      }
+      load(base, 1, offset, column[0], column[1]);
+      load(base + sizeof(Pair), 1, offset, column[2], column[3]);
     }
 
     /** to_rows() and add_rows(), in halves of rows. */
@@ -268,16 +262,8 @@ namespace quoin
                                          const std::uint16_t *offset,
                                          const Value (&column)[4])
     {
-      for (int half = 0; half < 2; ++half, base += sizeof(Pair))
-      {
-        const Value &x = column[2 * half], &y = column[2 * half + 1];
-        const Value p02 = __builtin_shufflevector(x, y, 0, 4, 2, 6);
-        const Value p13 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
-        pair(base + offset[0]) += __builtin_shufflevector(p02, p02, 0, 1);
-        pair(base + offset[1]) += __builtin_shufflevector(p13, p13, 0, 1);
-        pair(base + offset[2]) += upper(p02);
-        pair(base + offset[3]) += upper(p13);
-      }
+      add(base, offset, column[0], column[1]);
+      add(base + sizeof(Pair), offset, column[2], column[3]);
     }
 
     /** The upper two lanes. GCC 12 takes a slower permutation for them where it

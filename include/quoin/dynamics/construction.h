@@ -58,9 +58,9 @@ namespace quoin
     /** Called instead when @p state is one within stage @p stage. */
     void resume_stage(unsigned int stage, const State<dim> &state);
 
-    /** Of each physical surface the share of the stages in which it is absent,
-        and 2 more where it is absent after the last one [-]: histories at the
-        border of two are of that with the smaller value. */
+    /** The absence of each physical surface: the share of the stages in which
+        it is absent, and 2 more where it is absent after the last one [-].
+        Histories at the border of two are of that with the smaller one. */
     std::vector<double> absence() const;
 
     /** Restores the model of the start of the run. */

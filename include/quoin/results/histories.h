@@ -149,7 +149,7 @@ namespace quoin
     /** Null: no quantities of blocks. */
     std::unique_ptr<BlockHistories> of_blocks;
     MPI_Comm communicator;
-    /** Of physical surfaces, Construction::absence(). */
+    /** What Construction::absence() gives for each physical surface. */
     const std::vector<double> absence;
     std::array<double, 2> load_clock{}; /**< time [s] and rate [-] */
     double n_outside = 0.;              /**< blocks that have left the box */
