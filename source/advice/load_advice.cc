@@ -488,52 +488,6 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  void check_moved_water(const Parameters &parameters, const unsigned int index,
-                         const double stable, const double displacement,
-                         const NodeMap<dim> &nodes, Advice &advice)
-  {
-    /** Error of a factor by the displacement over the height of what is below
-        water: that of a slope of clay at 45 degrees [-]. */
-    constexpr double share_of_error = 3.6;
-    /** Error from which on there is a warning [-]. */
-    constexpr double most        = 0.018;
-    const StageParameters &stage = parameters.stages[index];
-    const double start           = start_of_stage(parameters.stages, index);
-    for (const LoadParameters &load : parameters.loads)
-    {
-      if (load.type != LoadType::traction || !load.pressure.field
-          || !load.pressure.field->level() || !names_load(stage, load.name))
-        continue;
-      double lowest = nowhere, highest = -nowhere;
-      for (const auto &face :
-           faces_of_curves(nodes, load.boundaries, load.name, true))
-        for (const auto &point : face.points)
-        {
-          lowest  = std::min(lowest, point[dim - 1]);
-          highest = std::max(highest, point[dim - 1]);
-        }
-      const double level
-          = (*load.pressure.field->level())({ late_time, start + late_time });
-      const double height = std::min(level, highest) - lowest;
-      const double error  = share_of_error * displacement / height;
-      if (!(height > 0.) || error <= most)
-        continue;
-      Checks(advice, "stage " + stage.name + ": ")
-          .warn_if(
-              true, "the ground has moved by ", displacement,
-              " m where it comes to rest at the factor ", stable,
-              ", and the water of the load ", load.name,
-              " presses on it as in the mesh. Ground that sinks would be "
-              "pressed more, so that the factor is too high: of a slope of "
-              "clay at 45 degrees by ",
-              std::round(100. * error),
-              " %. Factors hardly depend on 'Young's modulus': raise that "
-              "of the ground, tenfold, say, and compare.");
-      return;
-    }
-  }
-
-  template <int dim>
   void check_pressures(const Parameters &parameters, const NodeMap<dim> &nodes,
                        Advice &advice)
   {
@@ -595,10 +549,6 @@ namespace quoin
     check_given_water(parameters, top - bottom, advice);
   }
 
-  template void check_moved_water(const Parameters &, unsigned int, double,
-                                  double, const NodeMap<2> &, Advice &);
-  template void check_moved_water(const Parameters &, unsigned int, double,
-                                  double, const NodeMap<3> &, Advice &);
   template void check_pressures(const Parameters &, const NodeMap<2> &,
                                 Advice &);
   template void check_pressures(const Parameters &, const NodeMap<3> &,

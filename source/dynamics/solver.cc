@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
 #include <quoin/operators/archive.h>
 #include <quoin/model/free_bodies.h>
@@ -67,7 +68,10 @@ namespace quoin
     {
       load.set_mass(model.mass());
       load.begin_stage(false, 0.);
-      load.find_crack(state);
+      load.follow(state);
+      // A resumed stage begins with the loads of its start.
+      if (stage.pattern && is_among(load.name(), stage.pattern->loads))
+        load.return_to_mesh();
     }
     for (const NodalLoad<dim> &load : all.nodal)
       if (names_load(stage, load.name()))

@@ -440,6 +440,9 @@ namespace quoin
     State<dim> &trial = balance.state;
     trial.nodes       = configuration.nodes;
     trial.energy      = EnergyAccounts();
+    trial.load_time   = configuration.load_time;
+    trial.stage_start = stage_start;
+    trial.load_lag    = 0.;
     for (const ForceOperator<dim> *each : operators)
       each->prepare(trial);
     if constexpr (dim == 2)

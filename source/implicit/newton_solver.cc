@@ -379,7 +379,7 @@ namespace quoin
       if (loads.water && loads.water->acts())
         loads.water->begin_step(state);
     for (NodalLoad<dim> &load : loads.nodal)
-      load.find_crack(state, target.released);
+      load.follow(state, target.released);
     is_predicted          = predict(state, target, configuration);
     unsigned int n_cracks = 0;
     // Brittle joints break one after the other, each at an equilibrium, and

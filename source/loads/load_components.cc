@@ -46,10 +46,10 @@ namespace quoin
       return { quantity, {}, std::make_shared<LoadField>(function) };
     }
 
-    /** The level of water through the points @p text, x and height by turns, as
-        an expression of x, constant beyond the first and the last of them. */
-    std::string level_through(const ParameterSection &section,
-                              const std::string &name, const std::string &text)
+    /** The points of the line @p text, x and height by turns [m]. */
+    std::vector<std::array<double, 2>>
+    line_through(const ParameterSection &section, const std::string &name,
+                 const std::string &text)
     {
       const auto refuse = [&]()
       {
@@ -73,22 +73,7 @@ namespace quoin
       }
       if (points.size() < 2)
         refuse();
-      // The slope changes at each point.
-      std::ostringstream level;
-      level.precision(17);
-      level << points[0][1];
-      double before = 0.;
-      for (std::size_t i = 0; i < points.size(); ++i)
-      {
-        const double after = i + 1 < points.size()
-                                 ? (points[i + 1][1] - points[i][1])
-                                       / (points[i + 1][0] - points[i][0])
-                                 : 0.;
-        level << " + (" << after - before << ") * max(0, x - (" << points[i][0]
-              << "))";
-        before = after;
-      }
-      return level.str();
+      return points;
     }
 
     /** The pressure of "water LEVEL". */
@@ -103,17 +88,11 @@ namespace quoin
                            "'water 12'.");
       const std::string through = " through ";
       if (text.rfind(through, 0) == 0)
-      {
-        const std::string level
-            = level_through(section, name, text.substr(through.size()));
-        const auto function = section.made(
-            name, [&]()
-            { return SpaceTimeFunction(level, section.folder(), 3, true); });
         return { LoadQuantity::force,
                  {},
                  std::make_shared<LoadField>(
-                     LoadField::water_up_to(function)) };
-      }
+                     LoadField::water_below(line_through(
+                         section, name, text.substr(through.size())))) };
       const TimeFunction level = time_function(section, name, text);
       return { LoadQuantity::force, level, std::make_shared<LoadField>(level) };
     }

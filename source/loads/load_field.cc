@@ -9,18 +9,36 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** Height at @p x of the line through @p points, level beyond its ends. */
+    double height_of_line(const std::vector<std::array<double, 2>> &points,
+                          const double x)
+    {
+      if (x <= points.front()[0])
+        return points.front()[1];
+      for (std::size_t i = 1; i < points.size(); ++i)
+        if (x <= points[i][0])
+        {
+          const auto &[before, low] = points[i - 1];
+          const auto &[after, high] = points[i];
+          return low + (high - low) * (x - before) / (after - before);
+        }
+      return points.back()[1];
+    }
+  } // namespace
+
   double LoadField::operator()(const dealii::Point<3> &place,
                                const TimePoint &time, const unsigned int up,
                                const double crack) const
   {
-    if (is_function_of_place() && !is_level)
+    if (is_function_of_place() && water_line.empty())
       return function(place, time);
     const double level
-        = is_level      ? function(place, time)
-          : water_level ? (*water_level)(time)
-                        : uplift_diagram->level(
-                            uplift_diagram->distance({ place[0], place[1] }),
-                            time, crack);
+        = water_level      ? (*water_level)(time)
+          : uplift_diagram ? uplift_diagram->level(
+                uplift_diagram->distance({ place[0], place[1] }), time, crack)
+                           : height_of_line(water_line, place[0]);
     const double depth = level - place[up];
     // A depth that is no number must not pass for 0.
     return depth < 0. ? 0. : weight_of_water * depth;

@@ -166,6 +166,12 @@ namespace quoin
                           { return part.field != nullptr; });
   }
 
+  bool LoadParameters::is_water_that_follows() const
+  {
+    return pressure.field && pressure.field->is_water_at_rest() && !shape
+           && !distribution;
+  }
+
   bool LoadParameters::is_pressure_alone() const
   {
     const auto given = given_components();
@@ -385,7 +391,10 @@ namespace quoin
             "X, Y', that below a line through points with ascending x [m], "
             "level beyond its ends (in three dimensions X, Z, the same along "
             "y); or 'uplift', that in a joint below a dam "
-            "from 'Headwater' to 'Tailwater' [Pa]",
+            "from 'Headwater' to 'Tailwater'. Water, but for an uplift, "
+            "presses on faces where they have moved to, unless it has a "
+            "'Distribution' or a moving shape or is in a 'Load pattern' "
+            "[Pa]",
             pressure_component);
       if (entries.reads_if(load.type == LoadType::gravity))
         entries.number_or(

@@ -10,6 +10,7 @@
 #include <quoin/loads/nodal_load.h>
 #include <quoin/signals/time_function.h>
 #include <quoin/loads/traction_field.h>
+#include <quoin/loads/water_pressure.h>
 #include <quoin/mesh/kind_text.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -218,16 +219,29 @@ namespace quoin
                           parameters.is_pressure_alone());
     if (parameters.is_pressure_alone())
       own_joints = PressedJoints(node_map, parameters.boundaries, thickness);
+    LoadParameters others = parameters;
+    if (parameters.is_water_that_follows())
+    {
+      water = std::make_shared<WaterPressure<dim>>(*pressure.field, node_map,
+                                                   faces, thickness);
+      if (!pressure.field->line().empty())
+        pressure.value = TimeFunction("1", "./");
+      others.pressure = {};
+    }
+    if (!parameters.is_pressure_alone() || !water)
+      find_areas(others, node_map, faces, thickness);
+  }
+
+  template <int dim>
+  void NodalLoad<dim>::find_areas(const LoadParameters &parameters,
+                                  const NodeMap<dim> &node_map,
+                                  const std::vector<BoundaryFace<dim>> &faces,
+                                  const Thickness &thickness)
+  {
     if (parameters.differs_by_place())
-    {
-      make_field(parameters, node_map, faces, thickness);
-      return;
-    }
+      return make_field(parameters, node_map, faces, thickness);
     if (parameters.distribution)
-    {
-      find_distributed_areas(parameters, node_map, faces, thickness);
-      return;
-    }
+      return find_distributed_areas(parameters, node_map, faces, thickness);
     std::map<unsigned int, double> area;
     std::map<unsigned int, dealii::Tensor<1, dim>> inward_area;
     for (const BoundaryFace<dim> &face : faces)
@@ -249,7 +263,7 @@ namespace quoin
     {
       nodes.push_back(node);
       weights.push_back(weight);
-      if (pressure.quantity != LoadQuantity::free)
+      if (parameters.pressure.quantity != LoadQuantity::free)
         inward.push_back(inward_area[node]);
     }
   }
@@ -260,24 +274,26 @@ namespace quoin
                                   const std::vector<BoundaryFace<dim>> &faces,
                                   const Thickness &thickness)
   {
-    shape             = parameters.shape;
-    const auto places = sample_places(faces);
-    for (LoadComponent *part :
-         { &components[0], &components[1], &components[2], &pressure })
+    shape                  = parameters.shape;
+    const auto places      = sample_places(faces);
+    LoadParameters sampled = parameters;
+    for (LoadComponent *part : { &sampled.components[0], &sampled.components[1],
+                                 &sampled.components[2], &sampled.pressure })
       if (part->field)
         part->value = mixture(*part->field, places, dim - 1);
-    LoadParameters sampled = parameters;
-    sampled.components     = components;
-    sampled.pressure       = pressure;
+    components = sampled.components;
+    if (!water)
+      pressure = sampled.pressure;
     field = std::make_shared<TractionField<dim>>(sampled, node_map, faces,
                                                  thickness);
     nodes = field->nodes();
   }
 
   template <int dim>
-  void NodalLoad<dim>::find_crack(const State<dim> &state,
-                                  const double released)
+  void NodalLoad<dim>::follow(const State<dim> &state, const double released)
   {
+    if (water)
+      water->follow(state.nodes);
     if constexpr (dim == 2)
       if (crack)
       {
@@ -286,6 +302,24 @@ namespace quoin
         relaxation   = 1.;
         crack_excess = 0.;
       }
+  }
+
+  template <int dim>
+  void NodalLoad<dim>::return_to_mesh()
+  {
+    if (water)
+      water->return_to_mesh();
+  }
+
+  template <int dim>
+  void NodalLoad<dim>::linearise(State<dim> &state, const bool with_stiffness,
+                                 const TakeElement<dim> &take) const
+  {
+    if (!water)
+      return;
+    water->follow(state.nodes);
+    water->linearise({ state.load_time, state.load_start() + state.load_time },
+                     own_growth.share(state.load_time), with_stiffness, take);
   }
 
   template <int dim>
@@ -401,7 +435,7 @@ namespace quoin
   template <int dim>
   std::array<double, 5> NodalLoad<dim>::amplitude(const TimePoint &time) const
   {
-    double place = 0.;
+    double place = water ? double(water->n_moves()) : 0.;
     if (shape)
       for (const double centre : shape->at(time))
         place = 0.5 * place + centre;
@@ -444,6 +478,13 @@ namespace quoin
   void NodalLoad<dim>::add_loads(const TimePoint &time,
                                  dealii::Tensor<1, dim> *force) const
   {
+    if (water)
+    {
+      const auto &forces = water->forces(time);
+      const double share = own_growth.share(time.stage);
+      for (unsigned int i = 0; i < forces.size(); ++i)
+        force[water->nodes()[i]] += share * forces[i];
+    }
     if (field)
     {
       std::vector<dealii::Tensor<1, dim>> part;
@@ -477,6 +518,14 @@ namespace quoin
   NodalLoad<dim>::external_power(const TimePoint &time,
                                  const dealii::Tensor<1, dim> *velocity) const
   {
+    double of_water = 0.;
+    if (water)
+    {
+      const auto &forces = water->forces(time);
+      for (unsigned int i = 0; i < forces.size(); ++i)
+        of_water += forces[i] * velocity[water->nodes()[i]];
+      of_water *= own_growth.share(time.stage);
+    }
     if (field)
     {
       double power       = 0.;
@@ -484,7 +533,7 @@ namespace quoin
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           power += forces[i][d] * velocity[nodes[i]][d];
-      return own_growth.share(time.stage) * power;
+      return own_growth.share(time.stage) * power + of_water;
     }
     const dealii::Tensor<1, dim> sum = by_nodes(
         [&](const auto &node)
@@ -506,7 +555,7 @@ namespace quoin
       for (unsigned int d = 0; d < dim; ++d)
         inflow += inward[i][d] * velocity[nodes[i]][d];
     const auto values = amplitude(time);
-    double power      = values[3] * inflow;
+    double power      = values[3] * inflow + of_water;
     for (unsigned int d = 0; d < dim; ++d)
       power += values[d] * sum[d];
     return power;
@@ -516,7 +565,8 @@ namespace quoin
   bool NodalLoad<dim>::has_same_power(const TimePoint &one,
                                       const TimePoint &other) const
   {
-    return !field && std::min(one.stage, other.stage) >= own_growth.rest()
+    return !field && !water
+           && std::min(one.stage, other.stage) >= own_growth.rest()
            && pressure.value.is_constant()
            && std::all_of(components.begin(), components.end(),
                           [](const LoadComponent &component)

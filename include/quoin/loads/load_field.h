@@ -8,6 +8,7 @@
 #include <quoin/signals/space_time_function.h>
 #include <quoin/signals/time_function.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,11 +34,13 @@ namespace quoin
     explicit LoadField(const TimeFunction &level) : water_level(level)
     {
     }
-    /** Water up to a height @p level that differs from place to place [m]. */
-    static LoadField water_up_to(const SpaceTimeFunction &level)
+    /** Water below the line through two @p points or more, x and height [m]
+        with ascending x, level beyond its ends. */
+    static LoadField
+    water_below(const std::vector<std::array<double, 2>> &points)
     {
-      LoadField result(level);
-      result.is_level = true;
+      LoadField result;
+      result.water_line = points;
       return result;
     }
 
@@ -57,10 +60,21 @@ namespace quoin
     {
       return water_level;
     }
+    /** The line that is the height of the water, x and height [m]; empty: there
+        is none. */
+    const std::vector<std::array<double, 2>> &line() const
+    {
+      return water_line;
+    }
     /** The uplift below a dam; null: it is none. */
     const std::shared_ptr<const UpliftDiagram> &uplift() const
     {
       return uplift_diagram;
+    }
+    /** Whether it is the pressure of water at rest below a level. */
+    bool is_water_at_rest() const
+    {
+      return water_level || !water_line.empty();
     }
     /** Whether it is a function of place, which may have kinks anywhere. */
     bool is_function_of_place() const
@@ -79,9 +93,11 @@ namespace quoin
     }
 
   private:
+    LoadField() = default;
+
     SpaceTimeFunction function;
-    bool is_level = false; /**< function is the height of the water [m] */
     std::optional<TimeFunction> water_level;
+    std::vector<std::array<double, 2>> water_line;
     std::shared_ptr<const UpliftDiagram> uplift_diagram;
   };
 

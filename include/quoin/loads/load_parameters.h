@@ -105,6 +105,10 @@ namespace quoin
         'distribution'. */
     bool differs_by_place() const;
 
+    /** Whether the pressure is that of water at rest, without a factor by
+        place, which follows the faces that it presses on. */
+    bool is_water_that_follows() const;
+
     /** Whether tractions are a pressure and nothing else: it may act in
         joints. */
     bool is_pressure_alone() const;

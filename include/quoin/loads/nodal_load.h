@@ -18,6 +18,8 @@ namespace quoin
 {
   template <int dim>
   class TractionField;
+  template <int dim>
+  class WaterPressure;
   class JointCrack;
 
   /** What a NodalLoad is in all stages. */
@@ -38,7 +40,8 @@ namespace quoin
    * position of the node in the mesh. Tractions that are functions of the place
    * themselves, or have a moving shape, are integrated by a TractionField.
    * Tractions and pressures act on the reference area and keep their
-   * direction.
+   * direction, but for the pressure of water at rest, which follows the faces:
+   * a WaterPressure.
    */
   template <int dim>
   class NodalLoad : public ForceOperator<dim>
@@ -59,10 +62,13 @@ namespace quoin
       crack                    = std::move(opening);
       own_traits.follows_crack = crack != nullptr;
     }
-    /** Takes the crack of @p state. An uplift that begins in the stage, and
+    /** Takes from @p state what it depends on: the places of faces below water
+        and the crack of an uplift. An uplift that begins in the stage, and
         acts by the share @p released while forces out of balance are released,
         has in the crack no more than this share, too. Collective. */
-    void find_crack(const State<dim> &state, double released = 1.);
+    void follow(const State<dim> &state, double released = 1.);
+    /** Lets water press on its faces where they are in the mesh. */
+    void return_to_mesh();
     /**
      * Whether the crack of @p state, in equilibrium with the present uplift, is
      * the one that the uplift is that of. Otherwise the uplift becomes another
@@ -71,8 +77,10 @@ namespace quoin
     bool follow_crack(const State<dim> &state);
     void update(const StepContext &, State<dim> &state) override
     {
-      find_crack(state);
+      follow(state);
     }
+    void linearise(State<dim> &state, bool with_stiffness,
+                   const TakeElement<dim> &take) const override;
     /** A load that @p begins in the stage grows by half a cosine, over a
         duration that is given or @p automatic [s]; 0: it is there at once. */
     void begin_stage(const bool begins, const double automatic)
@@ -119,7 +127,7 @@ namespace quoin
 
     /** Traction x, y, z [Pa] or acceleration [m/s^2], pressure [Pa] and place
         of moving shapes [m]; where they differ from place to place, numbers
-        that change when they do. */
+        that change when they do, also as faces below water move. */
     std::array<double, 5> amplitude(const TimePoint &time) const;
 
     const std::string &name() const
@@ -133,6 +141,12 @@ namespace quoin
     template <typename Loop>
     auto by_nodes(const Loop &loop) const;
 
+    /** Nodes and weights of a traction, which is no pressure of water that
+        follows the faces. */
+    void find_areas(const LoadParameters &parameters,
+                    const NodeMap<dim> &node_map,
+                    const std::vector<BoundaryFace<dim>> &faces,
+                    const Thickness &thickness);
     /** Weights and inward areas of a traction with a distribution. */
     void find_distributed_areas(const LoadParameters &parameters,
                                 const NodeMap<dim> &node_map,
@@ -155,6 +169,8 @@ namespace quoin
 
     /** Null: the load does not differ by place, but for the distribution. */
     std::shared_ptr<TractionField<dim>> field;
+    /** Null: there is no pressure of water that follows the faces. */
+    std::shared_ptr<WaterPressure<dim>> water;
     std::shared_ptr<const JointCrack> crack;
     /** Relaxation of follow_crack(), and by how much the crack was longer than
         the uplift took it to be [m]; 0: not known. */

@@ -26,8 +26,6 @@ def wall():
     left = (7 / 12 * RHO * 10.0**2 / abs(normal[0])
             * np.outer(normal, normal))
     right = 7 / 12 * RHO * 8.0**2 * np.array([[1.0, 0.0], [0.0, 0.0]])
-    static = (-0.5 * RHO * G * 10.0**2 / abs(normal[0]) * normal
-              - 0.5 * RHO * G * 8.0**2 * np.array([1.0, 0.0]))
     rows = []
     for k in range(1, 50):
         t = k * 0.02
@@ -36,6 +34,11 @@ def wall():
             * math.cos(2 * math.pi * t),
             0.1 * 4 * math.pi * math.sin(math.pi * t)**3
             * math.cos(math.pi * t)])
+        rise = 0.1 * (3 * t / 8 - math.sin(2 * math.pi * t) / (4 * math.pi)
+                      + math.sin(4 * math.pi * t) / (32 * math.pi))
+        static = -0.5 * RHO * G * (
+            (10.0 - rise)**2 / abs(normal[0]) * normal
+            + (8.0 - rise)**2 * np.array([1.0, 0.0]))
         base = (mass * np.eye(2) + left + right) @ a - static
         rows.append((0.2 + t, *(-left @ a), (-right @ a)[0], *base))
     write("wall.csv", "time [s],left_x [N],left_y [N],right_x [N],"

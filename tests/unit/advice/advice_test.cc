@@ -360,36 +360,6 @@ TEST(InputAdvice, BendingWithFewCellsAcross)
   EXPECT_TRUE(bending_lines(parameters, make_mesh_report(mesh), { 0 }).empty());
 }
 
-TEST(InputAdvice, GroundThatHasMovedBelowWater)
-{
-  // Two blocks, from 0 to 4 m, in water up to 3 m.
-  Parameters parameters   = good_parameters();
-  LoadParameters water    = traction("water", "sides", "", "");
-  water.pressure.quantity = LoadQuantity::force;
-  water.pressure.field
-      = std::make_shared<LoadField>(TimeFunction("3*min(1, T)", "./"));
-  parameters.loads[1]        = water;
-  parameters.stages[0].loads = { "base", "water" };
-  const BlockMesh<2> mesh    = make_stack(3, 2);
-  const TestNodes nodes(mesh);
-  const auto warnings = [&](const double displacement)
-  {
-    Advice advice;
-    check_moved_water<2>(parameters, 0, 1.5, displacement, nodes, advice);
-    return advice;
-  };
-  EXPECT_TRUE(warnings(0.0149).empty());
-  ASSERT_EQ(warnings(0.0151).size(), 1U);
-  EXPECT_EQ(warnings(0.0151)[0].find("stage stage: the ground has moved by "
-                                     "0.0151 m where it comes to rest at the "
-                                     "factor 1.5, and the water of the load "
-                                     "water presses on it as in the mesh."),
-            0U);
-  // Water that the stage leaves out.
-  parameters.stages[0].loads = { "base" };
-  EXPECT_TRUE(warnings(1.).empty());
-}
-
 TEST(ModelSummary, SaysWhatThereIs)
 {
   const Parameters parameters = good_parameters();

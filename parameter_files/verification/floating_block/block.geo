@@ -1,0 +1,14 @@
+// A block of 4 m by 2 m, 1.2 m of it below the line y = 0.
+Point(1) = {-2, -1.2, 0};
+Point(2) = {2, -1.2, 0};
+Point(3) = {2, 0.8, 0};
+Point(4) = {-2, 0.8, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+MeshSize{ : } = 1;
+Physical Curve("hull") = {1, 2, 4};
+Physical Surface("block") = {1};
