@@ -488,6 +488,66 @@ namespace quoin
   } // namespace
 
   template <int dim>
+  void check_moved_water(const Parameters &parameters, const unsigned int index,
+                         const double stable, const double displacement,
+                         const NodeMap<dim> &nodes, Advice &advice)
+  {
+    /** Error of a factor by the displacement over the height of what is below
+        water: that of a slope of clay at 45 degrees [-]. */
+    constexpr double share_of_error = 3.6;
+    /** Error from which on there is a warning [-]. */
+    constexpr double most = 0.018;
+    /** By which share the pressure of water may differ from its weight [-]. */
+    constexpr double other_water = 0.1;
+    const StageParameters &stage = parameters.stages[index];
+    const double start           = start_of_stage(parameters.stages, index);
+    const TimePoint late{ late_time, start + late_time };
+    for (const LoadParameters &load : parameters.loads)
+    {
+      if (load.type != LoadType::traction || !load.pressure.field
+          || load.is_water_that_follows() || load.pressure.field->uplift()
+          || !names_load(stage, load.name))
+        continue;
+      // Height and pressure of the lowest and of the highest wet place.
+      std::array<double, 2> low{ nowhere, 0. }, high{ -nowhere, 0. };
+      for (const auto &face :
+           faces_of_curves(nodes, load.boundaries, load.name, true))
+        for (const auto &point : face.points)
+        {
+          dealii::Point<3> place;
+          for (unsigned int d = 0; d < dim; ++d)
+            place[d] = point[d];
+          const double height   = point[dim - 1];
+          const double pressure = load.pressure.at(place, late);
+          if (!(pressure > 0.))
+            continue;
+          if (height < low[0])
+            low = { height, pressure };
+          if (height > high[0])
+            high = { height, pressure };
+        }
+      const double height = high[0] - low[0];
+      const double error  = share_of_error * displacement / height;
+      if (!(height > 0.) || error <= most
+          || std::abs((low[1] - high[1]) / (weight_of_water * height) - 1.)
+                 > other_water)
+        continue;
+      Checks(advice, "stage " + stage.name + ": ")
+          .warn_if(
+              true, "the ground has moved by ", displacement,
+              " m where it comes to rest at the factor ", stable,
+              ", and the load ", load.name,
+              ", whose pressure is that of water, presses on it as in the "
+              "mesh. Ground that sinks would be pressed more, so that the "
+              "factor is too high: of a slope of clay at 45 degrees by ",
+              std::round(100. * error),
+              " %. Give 'Pressure = water LEVEL' or 'water through', which "
+              "follow the ground.");
+      return;
+    }
+  }
+
+  template <int dim>
   void check_pressures(const Parameters &parameters, const NodeMap<dim> &nodes,
                        Advice &advice)
   {
@@ -549,6 +609,10 @@ namespace quoin
     check_given_water(parameters, top - bottom, advice);
   }
 
+  template void check_moved_water(const Parameters &, unsigned int, double,
+                                  double, const NodeMap<2> &, Advice &);
+  template void check_moved_water(const Parameters &, unsigned int, double,
+                                  double, const NodeMap<3> &, Advice &);
   template void check_pressures(const Parameters &, const NodeMap<2> &,
                                 Advice &);
   template void check_pressures(const Parameters &, const NodeMap<3> &,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/advice/load_advice.h>
 #include <quoin/base/number_text.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/model/model_box.h>
@@ -105,6 +106,9 @@ namespace quoin
 
     private:
       void finish() override;
+      /** Warns where water that stays as it is in the mesh holds ground that
+          has moved before it came to rest at the factor @p stable. */
+      void warn_of_moved_water(double stable);
       /** Sets strengths after @p share of the way from those of the start of
           the stage to those of the parameters, divided by @p factor. */
       void set_strength(double factor, double share);
@@ -513,6 +517,22 @@ namespace quoin
     }
 
     template <int dim>
+    void SafetyStage<dim>::warn_of_moved_water(const double stable)
+    {
+      const unsigned int yields
+          = system.model->blocks().cell_data().is_plastic();
+      if (dealii::Utilities::MPI::max(yields, context.run.communicator) == 0)
+        return;
+      Advice advice;
+      for (const SafetyTrial &trial : search.trials())
+        if (trial.verdict == Verdict::stable && trial.factor == stable)
+          check_moved_water(system.parameters, index, stable,
+                            trial.displacement, *system.nodes, advice);
+      for (const std::string &text : advice)
+        log.warning(text);
+    }
+
+    template <int dim>
     void SafetyStage<dim>::finish()
     {
       const double stable     = search.highest_stable();
@@ -557,6 +577,7 @@ namespace quoin
                     "elements that yield are stronger than the ground itself, "
                     "so factors are above those of finer meshes: "
                     "scripts/mesh_convergence estimates by how much");
+      warn_of_moved_water(stable);
       if (is_reinforced())
         log.message(begin, "bolts, cables, beams and the interfaces of liners "
                            "kept their strength");

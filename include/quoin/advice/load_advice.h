@@ -18,6 +18,18 @@ namespace quoin
                             const Model<dim> &model, const State<dim> &state,
                             Advice &advice);
 
+  /**
+   * Warns of yielding ground below water in stage @p index, a search for the
+   * factor of safety, that came to rest at the factor @p stable after it had
+   * moved by @p displacement [m], so far that the pressure of water that is
+   * given as an expression, and stays as it is in the mesh, holds it.
+   * Collective.
+   */
+  template <int dim>
+  void check_moved_water(const Parameters &parameters, unsigned int index,
+                         double stable, double displacement,
+                         const NodeMap<dim> &nodes, Advice &advice);
+
   /** Warns of pressures in joints that are negative and of water far above the
       model. Collective. */
   template <int dim>

@@ -360,6 +360,46 @@ TEST(InputAdvice, BendingWithFewCellsAcross)
   EXPECT_TRUE(bending_lines(parameters, make_mesh_report(mesh), { 0 }).empty());
 }
 
+TEST(InputAdvice, GroundThatHasMovedBelowWater)
+{
+  // Two blocks, from 0 to 4 m, in water up to 3 m.
+  Parameters parameters   = good_parameters();
+  LoadParameters water    = traction("water", "sides", "", "");
+  water.pressure.quantity = LoadQuantity::force;
+  const auto press        = [&](const std::string &pressure)
+  {
+    water.pressure.field = std::make_shared<LoadField>(
+        SpaceTimeFunction(pressure, "./", 3, true));
+    parameters.loads[1] = water;
+  };
+  press("9810*max(0, 3*min(1, t) - y)");
+  parameters.stages[0].loads = { "base", "water" };
+  const BlockMesh<2> mesh    = make_stack(3, 2);
+  const TestNodes nodes(mesh);
+  const auto warnings = [&](const double displacement)
+  {
+    Advice advice;
+    check_moved_water<2>(parameters, 0, 1.5, displacement, nodes, advice);
+    return advice;
+  };
+  // The highest place of the mesh below water is at 2 m.
+  EXPECT_TRUE(warnings(0.0099).empty());
+  ASSERT_EQ(warnings(0.0101).size(), 1U);
+  EXPECT_EQ(warnings(0.0101)[0].find("stage stage: the ground has moved by "
+                                     "0.0101 m where it comes to rest at the "
+                                     "factor 1.5, and the load water, whose "
+                                     "pressure is that of water, presses"),
+            0U);
+  press("5000*max(0, 3 - y)");
+  EXPECT_TRUE(warnings(1.).empty()) << "no water";
+  water.pressure.field = std::make_shared<LoadField>(TimeFunction("3", "./"));
+  parameters.loads[1]  = water;
+  EXPECT_TRUE(warnings(1.).empty()) << "follows the ground";
+  press("9810*max(0, 3 - y)");
+  parameters.stages[0].loads = { "base" };
+  EXPECT_TRUE(warnings(1.).empty()) << "left out";
+}
+
 TEST(ModelSummary, SaysWhatThereIs)
 {
   const Parameters parameters = good_parameters();
