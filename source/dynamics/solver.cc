@@ -67,7 +67,7 @@ namespace quoin
     for (NodalLoad<dim> &load : all.nodal)
     {
       load.set_mass(model.mass());
-      load.begin_stage(false, 0.);
+      load.begin_stage(false, {});
       load.follow(state);
       // A resumed stage begins with the loads of its start.
       if (stage.pattern && is_among(load.name(), stage.pattern->loads))
@@ -128,10 +128,10 @@ namespace quoin
     {
       NodalLoad<dim> &load   = all.nodal[i];
       const bool begins_here = begins(load.name(), previous);
-      load.begin_stage(begins_here, duration);
-      if (!begins_here)
-        load.go_on_growing(rest(load.name(), growth.nodal[i]));
-      growth.nodal[i] = load.growth();
+      growth.nodal[i]        = begins_here
+                                   ? Growth{ load.ramp_where_begun(duration), 0. }
+                                   : rest(load.name(), growth.nodal[i]);
+      load.begin_stage(begins_here, growth.nodal[i]);
     };
     double ramp = 0.;
     for (std::size_t i = 0; i < all.nodal.size(); ++i)
@@ -176,11 +176,8 @@ namespace quoin
   {
     const LoadGrowth &growth = state.template get<LoadGrowth>();
     for (std::size_t i = 0; i < all.nodal.size(); ++i)
-    {
-      NodalLoad<dim> &load = all.nodal[i];
-      load.begin_stage(begins(load.name(), previous), 0.);
-      load.go_on_growing(growth.nodal[i]);
-    }
+      all.nodal[i].begin_stage(begins(all.nodal[i].name(), previous),
+                               growth.nodal[i]);
     for (std::size_t i = 0; i < all.constraints.size(); ++i)
       all.constraints[i]->grow_forces(growth.constraints[i]);
     if constexpr (dim == 2)

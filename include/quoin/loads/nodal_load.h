@@ -81,20 +81,16 @@ namespace quoin
     }
     void linearise(State<dim> &state, bool with_stiffness,
                    const TakeElement<dim> &take) const override;
-    /** A load that @p begins in the stage grows by half a cosine, over a
-        duration that is given or @p automatic [s]; 0: it is there at once. */
-    void begin_stage(const bool begins, const double automatic)
+    /** Lets it grow in a stage by half a cosine as @p growth says, also where
+        that goes on from the stage before; @p begins: whether the load begins
+        in the stage. */
+    void begin_stage(const bool begins, const Growth &growth)
     {
-      own_growth  = { begins ? ramp_where_begun(automatic) : 0., 0. };
+      own_growth  = growth;
       begins_here = begins;
     }
-    /** Lets it grow as @p growth says, where the growth goes on from the stage
-        before. */
-    void go_on_growing(const Growth &growth)
-    {
-      own_growth = growth;
-    }
-    /** That duration where the load begins [s]. */
+    /** Duration of its growth where it begins: that which is given, or @p
+        automatic [s]; 0: it is there at once. */
     double ramp_where_begun(const double automatic) const
     {
       return given_ramp >= 0. ? given_ramp : automatic;

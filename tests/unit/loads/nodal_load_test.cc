@@ -54,13 +54,13 @@ TEST(NodalLoad, GravityGrowsWhereItBegins)
       return load.amplitude({ t, 10. + t })[1];
     };
     EXPECT_EQ(at(0.), -8.);
-    load.begin_stage(true, 2.);
+    load.begin_stage(true, { load.ramp_where_begun(2.), 0. });
     const double duration = given < 0. ? 2. : given;
     EXPECT_EQ(at(0.), duration > 0. ? 0. : -8.);
     EXPECT_NEAR(at(0.25 * duration),
                 duration > 0. ? -4. + 2. * std::sqrt(2.) : -8., 1e-14);
     EXPECT_EQ(at(duration), -8.);
-    load.begin_stage(false, 2.); // it has been there before
+    load.begin_stage(false, {}); // it has been there before
     EXPECT_EQ(at(0.), -8.);
   }
 }
