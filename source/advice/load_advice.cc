@@ -444,6 +444,34 @@ namespace quoin
                    " m, so that there is no pressure. Check the level and the "
                    "height of the model.");
     }
+
+    /** The same of a level @p water that differs from place to place.
+        Collective. */
+    template <int dim>
+    void check_wets(const LoadParameters &load, const LoadField &water,
+                    const NodeMap<dim> &nodes, Advice &advice)
+    {
+      /** Points of each side of a face at which there may be water: the level
+          may have a kink above its middle. */
+      constexpr unsigned int n_points = 20;
+      for (const auto &face :
+           faces_of_curves(nodes, load.boundaries, load.name, true))
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int i = 0; i < n_points; ++i)
+          {
+            const double s = double(i) / n_points;
+            dealii::Point<3> place;
+            for (unsigned int d = 0; d < dim; ++d)
+              place[d] = (1. - s) * face.points[k][d]
+                         + s * face.points[(k + 1) % dim][d];
+            if (!(water(place, {}, dim - 1) <= 0.))
+              return;
+          }
+      Checks(advice, "load " + load.name + ": ")
+          .warn_if(true, "the line of the water is below all of its boundary, "
+                         "so that there is no pressure. Check its points, x "
+                         "and height, and the height of the model.");
+    }
   } // namespace
 
   namespace
@@ -585,6 +613,8 @@ namespace quoin
           check_level(about, "the water level of ", *level);
           check_wets(load, *level, nodes, advice);
         }
+        else if (load.pressure.field->is_water_at_rest())
+          check_wets(load, *load.pressure.field, nodes, advice);
         continue;
       }
       double lowest = 0.;
