@@ -49,7 +49,11 @@ namespace quoin
         if (quantity == CableQuantity::axial_force)
           consider(0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), force);
         else if (quantity == CableQuantity::largest_force)
+          result = std::abs(force) > std::abs(result) ? force : result;
+        else if (quantity == CableQuantity::largest_tension)
           result = std::max(result, force);
+        else if (quantity == CableQuantity::largest_compression)
+          result = std::max(result, -force);
         else if (quantity == CableQuantity::n_broken)
           result += now.broken[e];
         else if (quantity == CableQuantity::n_yielded)

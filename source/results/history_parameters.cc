@@ -122,6 +122,8 @@ namespace quoin
         { "cable yields", { Q::cable, 7, "-" } },
         { "cable slipped length", { Q::cable, 8, "m" } },
         { "cable slipped share", { Q::cable, 9, "-" } },
+        { "cable largest tension", { Q::cable, 10, "N" } },
+        { "cable largest compression", { Q::cable, 11, "N" } },
         { "beam displacement x", { Q::beam, 0, "m" } },
         { "beam displacement y", { Q::beam, 1, "m" } },
         { "beam axial force", { Q::beam, 2, "N" } },
@@ -206,7 +208,10 @@ namespace quoin
           "yet 0, and so are those of two points of which one is in such a "
           "block. 'cable axial force' and the like are of one bolt of 'Cable': "
           "at the element, head, node or dowel nearest to 'Point', 'cable "
-          "largest force' of all of its elements, 'cable breaks' the number of "
+          "largest force' the largest by magnitude of all of its elements, "
+          "negative if that is a compression, 'cable largest tension' and "
+          "'cable largest compression' each by itself, both positive, 'cable "
+          "breaks' the number of "
           "elements that have broken, 'cable yields' of those that have "
           "yielded or broken, 'cable slipped length' the length of bond that "
           "slips or has slipped, of all bars of 'Cable', 'cable slipped share' "

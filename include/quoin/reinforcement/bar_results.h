@@ -15,16 +15,18 @@ namespace quoin
   /** What histories record of bars, forces of one bar [N]. */
   enum class CableQuantity : unsigned int
   {
-    axial_force,    /**< of the element nearest to a point */
-    largest_force,  /**< of all elements of a section */
-    head_force,     /**< at the head nearest to a point */
-    bond_slip,      /**< of the node nearest to a point [m] */
-    shear_force,    /**< of the dowel nearest to a point */
-    shear_motion,   /**< of that dowel [m] */
-    n_broken,       /**< elements that have broken */
-    n_yielded,      /**< elements that have yielded, broken ones included */
-    slipped_length, /**< of the bond that slips or has slipped, all bars [m] */
-    slipped_share   /**< the same by the length of the bond [-] */
+    axial_force,     /**< of the element nearest to a point */
+    largest_force,   /**< of all elements of a section, by magnitude */
+    head_force,      /**< at the head nearest to a point */
+    bond_slip,       /**< of the node nearest to a point [m] */
+    shear_force,     /**< of the dowel nearest to a point */
+    shear_motion,    /**< of that dowel [m] */
+    n_broken,        /**< elements that have broken */
+    n_yielded,       /**< elements that have yielded, broken ones included */
+    slipped_length,  /**< of the bond that slips or has slipped, all bars [m] */
+    slipped_share,   /**< the same by the length of the bond [-] */
+    largest_tension, /**< of all elements of a section, or 0 */
+    largest_compression /**< the same, positive */
   };
 
   /** Fields of bars for cables.pvd. */

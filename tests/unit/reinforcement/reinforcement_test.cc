@@ -240,3 +240,26 @@ TEST(Reinforcement, ShearForceOfAnElementIsThatOfItsLargestDowel)
       cable_fields(model.reinforcement(), state).shear_force[dowels[0].element],
       -5e3);
 }
+
+// A bar that is pressed at one end and pulled at the other.
+TEST(Reinforcement, LargestForceIsThatOfTheLargestMagnitude)
+{
+  BarInBlocks bar;
+  auto &force = bar.state.get<ReinforcementState>().bars[0].force;
+  std::fill(force.begin(), force.end(), -1e3);
+  const auto value = [&](const CableQuantity quantity)
+  {
+    return cable_value(bar.model->reinforcement(), bar.state, "bar", quantity,
+                       {});
+  };
+  EXPECT_EQ(value(CableQuantity::largest_force), -1e3);
+  EXPECT_EQ(value(CableQuantity::largest_tension), 0.);
+  EXPECT_EQ(value(CableQuantity::largest_compression), 1e3);
+  force.front() = -7e3;
+  force.back()  = 4e3;
+  EXPECT_EQ(value(CableQuantity::largest_force), -7e3);
+  EXPECT_EQ(value(CableQuantity::largest_tension), 4e3);
+  EXPECT_EQ(value(CableQuantity::largest_compression), 7e3);
+  force.back() = 9e3;
+  EXPECT_EQ(value(CableQuantity::largest_force), 9e3);
+}
