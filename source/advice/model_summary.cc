@@ -8,6 +8,7 @@
 #include <quoin/loads/nodal_load.h>
 #include <quoin/signals/signal_frequency.h>
 #include <quoin/mesh/global_geometry.h>
+#include <quoin/advice/joint_rotation.h>
 #include <quoin/advice/model_summary.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 namespace quoin
@@ -155,29 +155,18 @@ namespace quoin
   {
     if (nodes.table().is_quadratic)
       return {};
-    // Curve and blocks of each face, from the rank of its lower side.
-    std::vector<std::array<unsigned int, 3>> own;
-    for (const JointNodes<dim> &face : nodes.faces().joints)
-      if (face.is_own[0] && face.blocks[0] != face.blocks[1])
-        own.push_back({ { face.name, std::min(face.blocks[0], face.blocks[1]),
-                          std::max(face.blocks[0], face.blocks[1]) } });
-    std::map<std::array<unsigned int, 3>, unsigned int> n_faces;
-    for (const auto &part :
-         dealii::Utilities::MPI::all_gather(nodes.communicator(), own))
-      for (const auto &face : part)
-        ++n_faces[face];
-
-    const auto excess
-        = [](const double n) { return dim == 2 ? 2. / (n * n) : 4. / n; };
+    const std::vector<BlockJoint> joints = block_joints(nodes, {}, false);
     std::vector<std::string> lines;
     for (const JointSetParameters &set : parameters.model.joints)
     {
       unsigned int fewest = -1, most = 0;
-      for (const auto &[face, n] : n_faces)
-        if (is_among(nodes.table().joint_name(face[0]), set.curves))
+      double largest = 0.;
+      for (const BlockJoint &joint : joints)
+        if (is_among(nodes.table().joint_name(joint.name), set.curves))
         {
-          fewest = std::min(fewest, n);
-          most   = std::max(most, n);
+          fewest  = std::min(fewest, joint.n_faces);
+          most    = std::max(most, joint.n_faces);
+          largest = std::max(largest, joint.excess);
         }
       if (most > 0)
         lines.push_back(text_of(
@@ -185,13 +174,49 @@ namespace quoin
             fewest == most ? count_text(most, "face")
                            : text_of(fewest, " to ", most, " faces"),
             " between two blocks, which while they are closed make a joint ",
-            dim == 2 ? "" : "about ", std::round(1000. * excess(fewest)) / 10.,
-            fewest == most ? " % too stiff when its blocks rotate"
-                           : " % too stiff when its blocks rotate where there "
-                             "are fewest"));
+            fewest == most ? "" : "up to ", std::round(1000. * largest) / 10.,
+            " % too stiff when its blocks rotate"));
     }
     return lines;
   }
+
+  template <int dim>
+  std::vector<std::string> rigid_face_lines(const Parameters &parameters,
+                                            const NodeMap<dim> &nodes)
+  {
+    /** Excess of the stiffness below which nothing is said [-]. */
+    constexpr double least = 0.1;
+    const auto &table      = nodes.table();
+    if (table.is_quadratic)
+      return {};
+    std::vector<bool> is_rigid = table.is_rigid;
+    for (const LoadParameters &load : parameters.loads)
+      if (load.type == LoadType::platen)
+        for (unsigned int b = 0; b < table.n_blocks(); ++b)
+          if (is_among(table.group_names[table.group[b]], load.groups))
+            is_rigid[b] = true;
+    const BlockJoint *worst              = nullptr;
+    const std::vector<BlockJoint> joints = block_joints(nodes, is_rigid, true);
+    for (const BlockJoint &joint : joints)
+      if (joint.excess > least && (!worst || joint.excess > worst->excess))
+        worst = &joint;
+    if (!worst)
+      return {};
+    const double percent = std::round(1000. * worst->excess) / 10.;
+    return { text_of(
+        "joint '", table.joint_name(worst->name), "' has ",
+        count_text(worst->n_faces, "face"),
+        " between two blocks that are rigid, which while they are closed make "
+        "it up to ",
+        percent, " % too stiff when these rotate: they tilt too little, up to ",
+        std::round(1000. * worst->excess / (1. + worst->excess)) / 10.,
+        " %. The moment at which a joint without tension overturns is exact. "
+        "Where tilts or periods matter take smaller elements there") };
+  }
+  template std::vector<std::string> rigid_face_lines(const Parameters &,
+                                                     const NodeMap<2> &);
+  template std::vector<std::string> rigid_face_lines(const Parameters &,
+                                                     const NodeMap<3> &);
   template std::vector<std::string> face_lines(const Parameters &,
                                                const NodeMap<2> &);
   template std::vector<std::string> face_lines(const Parameters &,

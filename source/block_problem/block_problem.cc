@@ -147,6 +147,7 @@ namespace quoin
       run.log.messages(contact_lines(*system.model, state));
       run.log.messages(face_lines(parameters, *system.nodes));
     }
+    run.log.messages(rigid_face_lines(parameters, *system.nodes));
     if constexpr (dim == 2)
       if (run.options.check)
       {

@@ -31,14 +31,21 @@ namespace quoin
 
   /**
    * How many faces joints have between two blocks, and by how much that makes
-   * them too stiff in rotation: 2/n^2 for n equal faces with nodal quadrature
-   * (theory.md, "Nodal quadrature"), in three dimensions for n^2 squares of two
-   * triangles. None for quadratic triangles, on whose edges Simpson's rule is
-   * exact. Collective.
+   * them too stiff in rotation, see block_joints(). None for quadratic
+   * triangles, on whose edges Simpson's rule is exact. Collective.
    */
   template <int dim>
   std::vector<std::string> face_lines(const Parameters &parameters,
                                       const NodeMap<dim> &nodes);
+
+  /**
+   * The same of the joint between two rigid blocks, or groups of platens, for
+   * which it is worst, if it is more than 10 %: where nothing but joints gives
+   * way tilts are wrong by as much. Collective.
+   */
+  template <int dim>
+  std::vector<std::string> rigid_face_lines(const Parameters &parameters,
+                                            const NodeMap<dim> &nodes);
 
   /** The deformable blocks of @p report that are slender, of plain linear cells
       of which few lie across them, and not bedded in joints. */

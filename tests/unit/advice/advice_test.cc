@@ -454,10 +454,31 @@ TEST(ModelSummary, FacesOfJointsInThreeDimensions)
       quoin::test::space_stack::elastic()) };
   const auto faces        = face_lines<3>(parameters, stack.nodes);
   ASSERT_EQ(faces.size(), 1U);
-  EXPECT_EQ(faces[0],
-            "joints joint: 4 faces between two blocks, which while "
-            "they are closed make a joint about 100 % too stiff when its "
-            "blocks rotate");
+  EXPECT_EQ(faces[0], "joints joint: 4 faces between two blocks, which while "
+                      "they are closed make a joint 215.1 % too stiff when its "
+                      "blocks rotate");
+}
+
+TEST(ModelSummary, FewFacesBetweenRigidBlocks)
+{
+  Parameters parameters = good_parameters();
+  const TestNodes few(make_stack(3, 2)), many(make_stack(5, 2));
+  EXPECT_TRUE(rigid_face_lines<2>(parameters, few).empty());
+  LoadParameters platen;
+  platen.name   = "foot";
+  platen.type   = LoadType::platen;
+  platen.groups = { "lower" };
+  parameters.loads.push_back(platen);
+  EXPECT_TRUE(rigid_face_lines<2>(parameters, few).empty());
+  platen.name   = "head";
+  platen.groups = { "upper" };
+  parameters.loads.push_back(platen);
+  const auto lines = rigid_face_lines<2>(parameters, few);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("'joint' has 3 faces"), std::string::npos);
+  EXPECT_NE(lines[0].find("22.2 % too stiff"), std::string::npos);
+  EXPECT_NE(lines[0].find("too little, up to 18.2 %"), std::string::npos);
+  EXPECT_TRUE(rigid_face_lines<2>(parameters, many).empty());
 }
 
 TEST(ModelSummary, LoadsWhoseFactorIsSought)
