@@ -237,6 +237,19 @@ namespace quoin
       return;
     LoadRecord &record           = context.loads[index];
     const StageLoads<dim> &loads = system.solver->stage_loads();
+    for (const MotionConstraint<dim> *platen : loads.constraints)
+      if (const RigidMotion<dim> *body = platen->rigid_motion();
+          body && body->bears())
+      {
+        std::vector<dealii::Point<dim>> places;
+        for (const unsigned int node : platen->nodes())
+          places.push_back(state.nodes[node].position());
+        record.add_bearing(platen->name(),
+                           platen_bearing(body->normals(state),
+                                          system.solver->node_forces(*platen),
+                                          places, context.run.communicator),
+                           time);
+      }
     if (loads.pattern)
     {
       const double factor = state.template get<LoadPatternState>().factor;

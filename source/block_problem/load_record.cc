@@ -35,6 +35,12 @@ namespace quoin
     constexpr double least_way = 0.1;
     /** Excess of the largest factor over the largest mean that is warned of. */
     constexpr double most_excess = 0.05;
+    /** Pull of a platen, by the largest force that it presses with, and share
+        of the rows with more, that is warned of [-]. */
+    constexpr double most_pull = 0.05, most_pulling = 0.05;
+    /** Pull by the force that it presses with at the same time from which on it
+        is a clamp [-], and tension that is nothing [Pa]. */
+    constexpr double clamping = 0.8, no_tension = 100.;
 
     /** Keeps the first of each two of @p rows of @p n numbers. */
     void keep_every_second(const unsigned int n, std::vector<double> &rows)
@@ -159,6 +165,39 @@ namespace quoin
     n_per_mean *= 2;
   }
 
+  template <int dim>
+  void LoadRecord::add_bearing(const std::string &name,
+                               const PlatenBearing<dim> &bearing,
+                               const double time)
+  {
+    auto found = std::find_if(pulls.begin(), pulls.end(),
+                              [&](const PlatenPull &pull)
+                              { return pull.name == name; });
+    if (found == pulls.end())
+    {
+      found       = pulls.insert(pulls.end(), PlatenPull());
+      found->name = name;
+    }
+    PlatenPull &pull = *found;
+    ++pull.n_rows;
+    pull.pressed = std::max(pull.pressed, bearing.pressed);
+    if (!(bearing.pulled > most_pull * pull.pressed
+          && bearing.pulled < clamping * bearing.pressed
+          && bearing.tension > no_tension))
+      return;
+    ++pull.n_pulling;
+    if (bearing.pulled <= pull.pulled)
+      return;
+    pull.pulled  = bearing.pulled;
+    pull.tension = bearing.tension;
+    pull.place.assign(bearing.place.begin_raw(), bearing.place.end_raw());
+    pull.time = time;
+  }
+  template void LoadRecord::add_bearing(const std::string &,
+                                        const PlatenBearing<2> &, double);
+  template void LoadRecord::add_bearing(const std::string &,
+                                        const PlatenBearing<3> &, double);
+
   double LoadRecord::Axis::taken() const
   {
     return applied > 0. ? most_down : -most_up;
@@ -244,6 +283,24 @@ namespace quoin
           "parts in motion that the control does not hold. That mean is nearer "
           "to what "
           "it bears at rest; push more slowly and compare.");
+    for (const PlatenPull &pull : pulls)
+      if (pull.pulled > most_pull * pull.pressed
+          && pull.n_pulling >= most_pulling * pull.n_rows)
+      {
+        std::string place;
+        for (const double x : pull.place)
+          place += (place.empty() ? "" : ", ") + number_text(x);
+        text += text_of(
+            text.empty() ? "" : " ", "the platen ", pull.name,
+            " pulled its boundary with up to ", pull.tension, " Pa, at (",
+            place, ") m and time ", pull.time, " s, with ", pull.pulled,
+            " N in all, where it presses with ", pull.pressed,
+            " N at the most: a platen on a 'Boundary' is glued to it, while a "
+            "plate that only lies there would open. For such a plate lay a "
+            "block on the boundary, with a joint without cohesion and tensile "
+            "strength below it, and give the platen its 'Group'; let the "
+            "platen be if it is bonded.");
+      }
     return text;
   }
 
@@ -267,6 +324,14 @@ namespace quoin
             = { { "applied [N]", found->applied },
                 { "supports [N]", -found->taken },
                 { "time [s]", found->time } };
+    for (const PlatenPull &pull : pulls)
+      if (pull.pulled > 0.)
+        stage["platens that pull"][pull.name]
+            = { { "tension [Pa]", pull.tension },
+                { "place [m]", pull.place },
+                { "pulled [N]", pull.pulled },
+                { "largest pressing [N]", pull.pressed },
+                { "time [s]", pull.time } };
   }
 
   namespace

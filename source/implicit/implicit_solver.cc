@@ -582,6 +582,18 @@ namespace quoin
   }
 
   template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  ImplicitSolver<dim>::node_forces(const MotionConstraint<dim> &platen) const
+  {
+    std::vector<dealii::Tensor<1, dim>> result;
+    const bool is_known = has_balance();
+    for (const unsigned int node : platen.nodes())
+      result.push_back(is_known ? -newton->current_balance().force[node]
+                                : dealii::Tensor<1, dim>());
+    return result;
+  }
+
+  template <int dim>
   void ImplicitSolver<dim>::fail(const State<dim> &state, const double tried,
                                  const bool jumped) const
   {

@@ -7,6 +7,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/motions/platen.h>
+#include <quoin/motions/platen_bearing.h>
 #include <quoin/motions/prescribed_motion.h>
 
 #include <algorithm>
@@ -115,7 +116,9 @@ namespace quoin
     own_traits.holds          = { { driven(0), driven(1), driven(2) } };
     own_traits.holds_rotation = driven(2);
     node_list                 = platen_nodes(parameters, node_map);
-    node_area = platen_areas(parameters, node_map, node_list, thickness);
+    node_area    = platen_areas(parameters, node_map, node_list, thickness);
+    is_bearing   = bears_boundary(parameters);
+    mesh_normals = platen_normals(parameters, node_map, node_list, thickness);
   }
 
   void Platen::set_mass(const std::vector<double> &mass,
@@ -213,6 +216,17 @@ namespace quoin
     offset  = dealii::Tensor<1, 2>({ sums[2] / mass, sums[3] / mass });
   }
 
+  std::vector<dealii::Tensor<1, 2>> Platen::normals(const State<2> &state) const
+  {
+    const double angle = state.get<PlatenState>(load_name).displacement[2];
+    const double c = std::cos(angle), s = std::sin(angle);
+    std::vector<dealii::Tensor<1, 2>> result;
+    for (const dealii::Tensor<1, 2> &n : mesh_normals)
+      result.push_back(
+          dealii::Tensor<1, 2>({ c * n[0] - s * n[1], s * n[0] + c * n[1] }));
+    return result;
+  }
+
   std::array<double, 3>
   Platen::resultant(const std::vector<CapturedNode<2>> &captured,
                     const PlatenState &platen) const
@@ -308,8 +322,17 @@ namespace quoin
   }
 
   void Platen::account(const StepContext &step,
-                       const std::vector<CapturedNode<2>> &, State<2> &state)
+                       const std::vector<CapturedNode<2>> &captured,
+                       State<2> &state)
   {
+    own_forces.clear();
+    for (unsigned int i = 0; i < mesh_normals.size(); ++i)
+    {
+      const CapturedNode<2> &before = captured[captured_positions[i]];
+      own_forces.push_back(before.mass / step.dt_velocity
+                               * (state.velocity[before.node] - before.velocity)
+                           - before.force);
+    }
     // All ranks have the platen; the first one books its work.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;

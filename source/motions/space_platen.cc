@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/motions/platen_bearing.h>
 #include <quoin/motions/space_platen.h>
 #include <quoin/operators/archive.h>
 
@@ -117,7 +118,19 @@ namespace quoin
     own_traits.holds          = { { driven(0), driven(1), driven(2) } };
     own_traits.holds_rotation = driven(3) && driven(4) && driven(5);
     node_list                 = platen_nodes(parameters, node_map);
-    node_area = platen_areas(parameters, node_map, node_list, thickness);
+    node_area    = platen_areas(parameters, node_map, node_list, thickness);
+    is_bearing   = bears_boundary(parameters);
+    mesh_normals = platen_normals(parameters, node_map, node_list, thickness);
+  }
+
+  std::vector<dealii::Tensor<1, 3>>
+  SpacePlaten::normals(const State<3> &state) const
+  {
+    const Matrix rotation = rotation_of(state.get<SpacePlatenState>(load_name));
+    std::vector<Vector> result;
+    for (const Vector &normal : mesh_normals)
+      result.push_back(rotation * normal);
+    return result;
   }
 
   bool SpacePlaten::driven(const unsigned int d) const
@@ -321,9 +334,17 @@ namespace quoin
   }
 
   void SpacePlaten::account(const StepContext &step,
-                            const std::vector<CapturedNode<3>> &,
+                            const std::vector<CapturedNode<3>> &captured,
                             State<3> &state)
   {
+    own_forces.clear();
+    for (unsigned int i = 0; i < mesh_normals.size(); ++i)
+    {
+      const CapturedNode<3> &before = captured[captured_positions[i]];
+      own_forces.push_back(before.mass / step.dt_velocity
+                               * (state.velocity[before.node] - before.velocity)
+                           - before.force);
+    }
     // All ranks have the platen; the first one books its work.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;

@@ -38,7 +38,7 @@ namespace quoin
 
     const std::string first_words = "quoin checkpoint, format ";
     /** Format of archives and manifest; increase it when contents change. */
-    constexpr unsigned int format = 25;
+    constexpr unsigned int format = 26;
 
     fs::path root_of(const std::string &output_directory)
     {

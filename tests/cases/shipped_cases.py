@@ -31,6 +31,8 @@ WARNINGS = {
     "rock/bolted_tunnel/case.prm": ["'Active length = 0.1' finds no room"],
     # as coarse as 30 m of rock around allow, see its README
     "rock/blast/large.prm": [WAVES],
+    # its top course bends, bonded to the plate
+    "tutorials/small_wall/case.prm": ["the platen push pulled its boundary"],
     # a joint without friction or stiffness in shear
     "verification/line_source_joint/viscous.prm": ["'Shear stiffness = 1'"],
     # all frequencies of the mesh, which must leave and not grow

@@ -4,6 +4,7 @@
 #ifndef quoin_block_problem_load_record_h
 #define quoin_block_problem_load_record_h
 
+#include <quoin/motions/platen_bearing.h>
 #include <quoin/operators/state.h>
 #include <quoin/block_problem/block_system.h>
 
@@ -25,6 +26,25 @@ namespace quoin
     /** Sums of the magnitudes of the loads on nodes and platens, whose
         resultant may be zero. */
     std::array<double, 3> size{};
+  };
+
+  /** How a platen on a boundary has pulled there in a stage. */
+  struct PlatenPull
+  {
+    std::string name;         /**< of the load */
+    double pressed      = 0.; /**< largest force that it pressed with [N] */
+    unsigned int n_rows = 0, n_pulling = 0; /**< rows, those that pull */
+    /** The row with the largest pull: all of it [N], the largest per area [Pa],
+        where that is [m], and when [s]. */
+    double pulled = 0., tension = 0.;
+    std::vector<double> place;
+    double time = 0.;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &name &pressed &n_rows &n_pulling &pulled &tension &place &time;
+    }
   };
 
   /**
@@ -56,6 +76,12 @@ namespace quoin
     void add_forces(const ForceBalance &forces, double time,
                     bool to_means = true);
 
+    /** Adds a row at @p time [s] with what the platen @p name exerts on its
+        boundary. */
+    template <int dim>
+    void add_bearing(const std::string &name, const PlatenBearing<dim> &bearing,
+                     double time);
+
     /**
      * What is to be warned of: that along an axis along which the applied force
      * varies, the largest force that supports carried at any time is less than
@@ -66,7 +92,10 @@ namespace quoin
      * loads that balance each other. Or that damping took more than 5 % of the
      * work of a load pattern, or that its largest factor is more than 5 % above
      * the largest mean over a twentieth of the rows of what neither motion nor
-     * damping took. Empty: nothing.
+     * damping took. Or that a platen which presses its boundary pulls a part of
+     * it, in a twentieth of the rows or more, with more than 5 % of the largest
+     * force that it pressed with, and less than 80 % of what it presses with at
+     * the same time: one that pulls more is a clamp. Empty: nothing.
      */
     std::string warning() const;
 
@@ -85,6 +114,7 @@ namespace quoin
           .n_rows;
       archive &path &n_per_place;
       archive &means &sum &n_summed &n_per_mean;
+      archive &pulls;
     }
 
   private:
@@ -158,6 +188,7 @@ namespace quoin
     std::vector<double> means;
     std::vector<double> sum = std::vector<double>(n_numbers, 0.);
     unsigned int n_summed = 0, n_per_mean = 1;
+    std::vector<PlatenPull> pulls; /**< of the platens that have borne */
   };
 
   /**

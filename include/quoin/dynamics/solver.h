@@ -133,6 +133,12 @@ namespace quoin
 
     /** Force [N] and moment [N m] of a load; collective. */
     virtual Resultant<dim> resultant(const std::string &load) const;
+    /** The forces that a platen which bears() exerts on its nodes [N]. */
+    virtual std::vector<dealii::Tensor<1, dim>>
+    node_forces(const MotionConstraint<dim> &platen) const
+    {
+      return platen.rigid_motion()->node_forces();
+    }
     /** Called before a checkpoint: completes @p state. */
     virtual void save(State<dim> &state) const;
     /** Called after a checkpoint: drops what only checkpoints need. */

@@ -102,6 +102,8 @@ namespace quoin
     void save(State<dim> &state) const override;
 
     Resultant<dim> resultant(const std::string &load) const override;
+    std::vector<dealii::Tensor<1, dim>>
+    node_forces(const MotionConstraint<dim> &platen) const override;
 
     /** Record of steps and iterations; the caller that reports them empties the
      * lists. */

@@ -114,6 +114,16 @@ namespace quoin
     /** Share of its forces that acts at the @p load_time [s] of a stage in
         which they grow, see MotionConstraint::grow_forces() [-]. */
     virtual double force_share(double load_time) const = 0;
+    /** Whether it is loaded or driven and moves the nodes of a boundary, which
+        a plate could only press. */
+    virtual bool bears() const = 0;
+    /** Then: the outward normal of the boundary at its nodes, times each one's
+        share of the area, where they are now [m^2]. */
+    virtual std::vector<dealii::Tensor<1, dim>>
+    normals(const State<dim> &state) const = 0;
+    /** Then: the forces that it exerted on its nodes in the last explicit step
+        [N]. */
+    virtual const std::vector<dealii::Tensor<1, dim>> &node_forces() const = 0;
 
   protected:
     ~RigidMotion() = default;

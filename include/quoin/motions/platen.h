@@ -87,6 +87,16 @@ namespace quoin
     {
       return last_unbalanced;
     }
+    bool bears() const override
+    {
+      return is_bearing;
+    }
+    std::vector<dealii::Tensor<1, 2>>
+    normals(const State<2> &state) const override;
+    const std::vector<dealii::Tensor<1, 2>> &node_forces() const override
+    {
+      return own_forces;
+    }
     const std::array<LoadComponent, 3> *parts() const override
     {
       return &components;
@@ -128,6 +138,9 @@ namespace quoin
         velocity before it. */
     std::array<double, 3> drive{}, damping{}, velocity_before{};
     double last_unbalanced = 0.;
+    bool is_bearing        = false; /**< see bears() */
+    /** The normals in the mesh, and forces on nodes, see RigidMotion. */
+    std::vector<dealii::Tensor<1, 2>> mesh_normals, own_forces;
     Growth force_growth;
   };
 } // namespace quoin

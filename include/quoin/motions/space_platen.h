@@ -90,6 +90,16 @@ namespace quoin
     {
       return last_unbalanced;
     }
+    bool bears() const override
+    {
+      return is_bearing;
+    }
+    std::vector<dealii::Tensor<1, 3>>
+    normals(const State<3> &state) const override;
+    const std::vector<dealii::Tensor<1, 3>> &node_forces() const override
+    {
+      return own_forces;
+    }
     const std::array<LoadComponent, 3> *rotations() const override
     {
       return &turns;
@@ -128,6 +138,9 @@ namespace quoin
         damping, and the velocity before it. */
     Six drive{}, damping{}, velocity_before{};
     double last_unbalanced = 0.;
+    bool is_bearing        = false; /**< see bears() */
+    /** The normals in the mesh, and forces on nodes, see RigidMotion. */
+    std::vector<dealii::Tensor<1, 3>> mesh_normals, own_forces;
     Growth force_growth;
   };
 

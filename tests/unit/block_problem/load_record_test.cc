@@ -187,3 +187,44 @@ TEST(LoadRecord, FactorsThatSetTheModelInMotionAreNoResistance)
     EXPECT_NE(record.warning().find("14"), std::string::npos);
   }
 }
+
+namespace
+{
+  /** A platen that presses with 100 N and pulls with @p pulled [N] in
+      @p n_pulling of 100 rows. */
+  LoadRecord platen(const double pulled, const unsigned int n_pulling,
+                    const double tension = 5e3)
+  {
+    LoadRecord record;
+    for (unsigned int i = 0; i < 100; ++i)
+    {
+      PlatenBearing<2> bearing;
+      bearing.pressed = 100.;
+      if (i >= 100 - n_pulling)
+      {
+        bearing.pulled  = pulled * (i + 1) / 100.;
+        bearing.tension = tension;
+        bearing.place   = { 2., 0.5 };
+      }
+      record.add_bearing("plate", bearing, i);
+    }
+    return record;
+  }
+} // namespace
+
+TEST(LoadRecord, WarnsOfPlatensThatPull)
+{
+  const LoadRecord record = platen(30., 10);
+  const std::string text  = record.warning();
+  for (const char *part :
+       { "the platen plate pulled", "5000 Pa", "at (2, 0.5) m and time 99 s",
+         "30 N in all", "100 N at the most", "'Group'" })
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+  nlohmann::ordered_json stage;
+  record.summarise(stage);
+  EXPECT_EQ(stage["platens that pull"]["plate"]["pulled [N]"], 30.);
+  EXPECT_TRUE(platen(4., 100).warning().empty()); // the corners of a block
+  EXPECT_TRUE(platen(30., 4).warning().empty());  // a wave that passes
+  EXPECT_TRUE(platen(90., 10).warning().empty()); // a clamp
+  EXPECT_TRUE(platen(30., 10, 1.).warning().empty());
+}

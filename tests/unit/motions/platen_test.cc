@@ -7,6 +7,7 @@
 
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/motions/platen.h>
+#include <quoin/motions/platen_bearing.h>
 
 #include <gtest/gtest.h>
 
@@ -258,4 +259,50 @@ TEST(PlatensOfRanks, ABoundaryTurnsAboutItsCentreOfMassOnEachRank)
   EXPECT_NEAR(now.velocity[2], dt, 1e-15);
   EXPECT_NEAR(state.pending.external, is_first ? 0.5 * dt * 12. * 4.5 * dt : 0.,
               1e-15);
+}
+
+// The bottom, whose outward normal is down: one node presses, the other hangs.
+TEST(Platen, PullsWhereAPlateWouldOpen)
+{
+  const LoadComponent still
+      = BoundarySquare::component(LoadQuantity::velocity, "0");
+  const LoadComponent moved
+      = BoundarySquare::component(LoadQuantity::velocity, "0*t");
+  HeldBlock block(moved, still, still, "bottom");
+  std::vector<dealii::Tensor<1, 2>> forces = no_forces;
+  forces[0][1]                             = -5.;
+  forces[1][1]                             = 3.;
+  block.capture(block.platen, forces);
+  block.move(block.platen);
+  const RigidMotion<2> &body = *block.platen.rigid_motion();
+  ASSERT_TRUE(body.bears());
+  const auto bearing = platen_bearing<2>(
+      body.normals(block.state), body.node_forces(),
+      { block.mesh.vertices[0], block.mesh.vertices[1] }, MPI_COMM_SELF);
+  EXPECT_NEAR(bearing.pressed, 5., 1e-12);
+  EXPECT_NEAR(bearing.pulled, 3., 1e-12);
+  EXPECT_NEAR(bearing.tension, 3. / 1.5, 1e-12);
+  EXPECT_EQ(bearing.place, block.mesh.vertices[1]);
+  // One that stands still is a support, and a group has joints around it.
+  EXPECT_FALSE(
+      HeldBlock(still, still, {}, "bottom").platen.rigid_motion()->bears());
+  EXPECT_FALSE(HeldBlock(moved, still, {}).platen.rigid_motion()->bears());
+}
+
+// A quarter of a turn: normals turn, too.
+TEST(Platen, NormalsTurnWithIt)
+{
+  const LoadComponent still
+      = BoundarySquare::component(LoadQuantity::velocity, "0");
+  HeldBlock block(
+      still, still,
+      BoundarySquare::component(LoadQuantity::displacement, "9e4 * t"),
+      "bottom");
+  block.capture(block.platen, no_forces);
+  block.move(block.platen);
+  for (const auto &normal : block.platen.normals(block.state))
+  {
+    EXPECT_NEAR(normal[0], 1.5, 1e-12);
+    EXPECT_NEAR(normal[1], 0., 1e-12);
+  }
 }
