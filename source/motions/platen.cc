@@ -119,6 +119,7 @@ namespace quoin
     node_area    = platen_areas(parameters, node_map, node_list, thickness);
     is_bearing   = bears_boundary(parameters);
     mesh_normals = platen_normals(parameters, node_map, node_list, thickness);
+    own_forces.resize(mesh_normals.size());
   }
 
   void Platen::set_mass(const std::vector<double> &mass,

@@ -121,6 +121,7 @@ namespace quoin
     node_area    = platen_areas(parameters, node_map, node_list, thickness);
     is_bearing   = bears_boundary(parameters);
     mesh_normals = platen_normals(parameters, node_map, node_list, thickness);
+    own_forces.resize(mesh_normals.size());
   }
 
   std::vector<dealii::Tensor<1, 3>>
