@@ -8,10 +8,11 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/reference_cell.h>
-#include <deal.II/grid/tria_description.h>
 
+#include <boost/serialization/array.hpp>
 #include <boost/serialization/utility.hpp>
 
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -19,9 +20,6 @@ namespace quoin
 {
   namespace
   {
-    template <int dim>
-    using Description = dealii::TriangulationDescription::Description<dim, dim>;
-
     /** Vertices of the cell that are those of each of its faces. */
     template <int dim>
     std::array<std::array<unsigned int, dim>, dim + 1> vertices_of_faces()
@@ -34,31 +32,15 @@ namespace quoin
       return result;
     }
 
-    /** What one rank gets. */
-    template <int dim>
-    struct Part
-    {
-      Description<dim> description;
-      std::vector<unsigned int> vertices; /**< numbers in the whole mesh */
-      JointMap<dim> joints;
-
-      template <typename Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &description &vertices &joints;
-      }
-    };
-
     /** Cuts the whole mesh of the first rank into the parts of all ranks. */
     template <int dim>
     class Distributor
     {
     public:
       Distributor(const BlockMesh<dim> &mesh,
-                  const std::vector<unsigned int> &rank_of_cell,
-                  const MPI_Comm communicator);
+                  const std::vector<unsigned int> &rank_of_cell);
 
-      Part<dim> part(unsigned int rank) const;
+      MeshPart<dim> part(unsigned int rank) const;
 
     private:
       unsigned int
@@ -69,7 +51,6 @@ namespace quoin
 
       const BlockMesh<dim> &mesh;
       const std::vector<unsigned int> &rank_of_cell;
-      const MPI_Comm communicator;
       const std::array<std::array<unsigned int, dim>, dim + 1> face_vertices
           = vertices_of_faces<dim>();
       /** Boundary id of face f of cell c: entry (dim + 1) c + f. */
@@ -79,9 +60,8 @@ namespace quoin
 
     template <int dim>
     Distributor<dim>::Distributor(const BlockMesh<dim> &mesh,
-                                  const std::vector<unsigned int> &rank_of_cell,
-                                  const MPI_Comm communicator)
-      : mesh(mesh), rank_of_cell(rank_of_cell), communicator(communicator)
+                                  const std::vector<unsigned int> &rank_of_cell)
+      : mesh(mesh), rank_of_cell(rank_of_cell)
     {
       boundary_ids.assign((dim + 1) * mesh.n_cells(), none);
       name_faces();
@@ -149,15 +129,9 @@ namespace quoin
     }
 
     template <int dim>
-    Part<dim> Distributor<dim>::part(const unsigned int rank) const
+    MeshPart<dim> Distributor<dim>::part(const unsigned int rank) const
     {
-      Part<dim> result;
-      Description<dim> &description = result.description;
-      description.comm              = communicator;
-      description.smoothing         = dealii::Triangulation<dim>::none;
-      description.settings
-          = dealii::TriangulationDescription::Settings::default_setting;
-      description.cell_infos.resize(1);
+      MeshPart<dim> result;
 
       // Cells of other ranks that share a vertex come along as ghosts.
       std::vector<bool> is_touched(mesh.n_vertices(), false);
@@ -169,37 +143,29 @@ namespace quoin
       std::vector<unsigned int> local(mesh.n_vertices(), none);
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
-        if (std::none_of(mesh.cells[c].begin(), mesh.cells[c].end(),
+        auto cell = mesh.cells[c];
+        if (std::none_of(cell.begin(), cell.end(),
                          [&](const unsigned int v) { return is_touched[v]; }))
           continue;
-        dealii::CellData<dim> cell(dim + 1);
-        cell.material_id = mesh.cell_group[c];
-        cell.manifold_id = dealii::numbers::flat_manifold_id;
-        for (unsigned int k = 0; k <= dim; ++k)
+        for (unsigned int &v : cell)
         {
-          const unsigned int v = mesh.cells[c][k];
           if (local[v] == none)
           {
-            local[v] = result.vertices.size();
-            result.vertices.push_back(v);
-            description.coarse_cell_vertices.push_back(mesh.vertices[v]);
+            local[v] = result.points.size();
+            result.vertex_numbers.push_back(v);
+            result.points.push_back(mesh.vertices[v]);
           }
-          cell.vertices[k] = local[v];
+          v = local[v];
         }
-        description.coarse_cells.push_back(cell);
-        description.coarse_cell_index_to_coarse_cell_id.push_back(c);
-
-        dealii::TriangulationDescription::CellData<dim> info;
-        info.id           = dealii::CellId(c, {}).template to_binary<dim>();
-        info.subdomain_id = rank_of_cell[c];
-        info.level_subdomain_id = rank_of_cell[c];
-        info.manifold_id        = dealii::numbers::flat_manifold_id;
-        info.manifold_line_ids.fill(dealii::numbers::flat_manifold_id);
-        info.manifold_quad_ids.fill(dealii::numbers::flat_manifold_id);
         for (unsigned int f = 0; f <= dim; ++f)
-          if (boundary_ids[(dim + 1) * c + f] != none)
-            info.boundary_ids.emplace_back(f, boundary_ids[(dim + 1) * c + f]);
-        description.cell_infos[0].push_back(info);
+          if (const unsigned int id = boundary_ids[(dim + 1) * c + f];
+              id != none)
+            result.boundary_ids.emplace_back(
+                (dim + 1) * result.cells.size() + f, id);
+        result.cells.push_back(cell);
+        result.cell_numbers.push_back(c);
+        result.cell_ranks.push_back(rank_of_cell[c]);
+        result.cell_groups.push_back(mesh.cell_group[c]);
       }
       for (const JointPair<dim> &pair : pairs)
         if (pair.ranks[0] == rank || pair.ranks[1] == rank)
@@ -266,28 +232,62 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  void CellTriangulation<dim>::create_triangulation(
-      const dealii::TriangulationDescription::Description<dim, dim>
-          &description)
+  void CellTriangulation<dim>::create(const MeshPart<dim> &part)
   {
-    const auto &ids = description.coarse_cell_index_to_coarse_cell_id;
-    runs.clear();
-    for (unsigned int i = 0; i < ids.size(); ++i)
-      if (i == 0 || ids[i] != ids[i - 1] + 1)
-        runs.emplace_back(ids[i], i);
-    dealii::parallel::fullydistributed::Triangulation<
-        dim>::create_triangulation(description);
+    using Serial = dealii::Triangulation<dim>;
+    if (part.cells.empty())
+    {
+      // deal.II asks for a cell on each rank: one of no rank.
+      std::vector<dealii::Point<dim>> corners(1);
+      for (unsigned int d = 0; d < dim; ++d)
+        corners.push_back(dealii::Point<dim>::unit_vector(d));
+      dealii::CellData<dim> cell(dim + 1);
+      std::iota(cell.vertices.begin(), cell.vertices.end(), 0);
+      ids = { dealii::numbers::invalid_coarse_cell_id };
+      Serial::create_triangulation(corners, { cell }, {});
+      this->begin()->set_subdomain_id(dealii::numbers::artificial_subdomain_id);
+    }
+    else
+    {
+      std::vector<dealii::CellData<dim>> cells(part.cells.size(),
+                                               dealii::CellData<dim>(dim + 1));
+      for (unsigned int c = 0; c < cells.size(); ++c)
+      {
+        std::copy(part.cells[c].begin(), part.cells[c].end(),
+                  cells[c].vertices.begin());
+        cells[c].material_id = part.cell_groups[c];
+      }
+      ids = part.cell_numbers;
+      Serial::create_triangulation(part.points, cells, {});
+      auto boundary_id = part.boundary_ids.begin();
+      for (const auto &cell : this->active_cell_iterators())
+      {
+        const unsigned int c = cell->index();
+        cell->set_subdomain_id(part.cell_ranks[c]);
+        for (; boundary_id != part.boundary_ids.end()
+               && boundary_id->first / (dim + 1) == c;
+             ++boundary_id)
+          cell->face(boundary_id->first % (dim + 1))
+              ->set_boundary_id(boundary_id->second);
+      }
+    }
+    // That of the derived class, which is private, does the same.
+    dealii::parallel::TriangulationBase<dim>::update_number_cache();
   }
 
   template <int dim>
-  unsigned int CellTriangulation<dim>::coarse_cell_id_to_coarse_cell_index(
-      const dealii::types::coarse_cell_id id) const
+  unsigned int
+  CellTriangulation<dim>::coarse_cell_id_to_coarse_cell_index(const Id id) const
   {
-    const auto next = std::upper_bound(runs.begin(), runs.end(), id,
-                                       [](const auto value, const auto &run)
-                                       { return value < run.first; });
-    const auto &run = *std::prev(next);
-    return run.second + (id - run.first);
+    return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
+  }
+
+  template <int dim>
+  typename CellTriangulation<dim>::Id
+  CellTriangulation<dim>::coarse_cell_index_to_coarse_cell_id(
+      const unsigned int index) const
+  {
+    return ids[index];
   }
 
   template <int dim>
@@ -302,10 +302,10 @@ namespace quoin
       block_table = make_table(mesh, is_rigid);
     block_table = dealii::Utilities::MPI::broadcast(communicator, block_table);
 
-    Part<dim> own;
+    MeshPart<dim> own;
     if (is_first)
     {
-      const Distributor<dim> distributor(mesh, rank_of_cell, communicator);
+      const Distributor<dim> distributor(mesh, rank_of_cell);
       const unsigned int n_ranks
           = dealii::Utilities::MPI::n_mpi_processes(communicator);
       for (unsigned int rank = 1; rank < n_ranks; ++rank)
@@ -314,14 +314,12 @@ namespace quoin
       own = distributor.part(0);
     }
     else
-    {
-      own = dealii::Utilities::unpack<Part<dim>>(receive(communicator), false);
-      own.description.comm = communicator;
-    }
-    mesh      = BlockMesh<dim>();
+      own = dealii::Utilities::unpack<MeshPart<dim>>(receive(communicator),
+                                                     false);
+    mesh = BlockMesh<dim>();
+    cells.create(own);
     joint_map = std::move(own.joints);
-    vertices  = std::move(own.vertices);
-    cells.create_triangulation(own.description);
+    vertices  = std::move(own.vertex_numbers);
   }
 
   template class CellTriangulation<2>;

@@ -10,14 +10,43 @@
 
 #include <deal.II/distributed/fully_distributed_tria.h>
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace quoin
 {
+  /** What one rank has of the mesh: its cells, and those of other ranks that
+      share a vertex with them. */
+  template <int dim>
+  struct MeshPart
+  {
+    std::vector<dealii::Point<dim>> points;   /**< of its vertices [m] */
+    std::vector<unsigned int> vertex_numbers; /**< in the whole mesh */
+
+    std::vector<std::array<unsigned int, dim + 1>> cells; /**< into points */
+    /** Numbers of the cells in the whole mesh, ascending; their ranks and
+        groups. */
+    std::vector<dealii::types::coarse_cell_id> cell_numbers;
+    std::vector<unsigned int> cell_ranks, cell_groups;
+
+    /** Face f of cell c, as (dim + 1) c + f, and its boundary id. */
+    std::vector<std::pair<std::size_t, unsigned int>> boundary_ids;
+
+    JointMap<dim> joints;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &points &vertex_numbers &cells &cell_numbers &cell_ranks
+          &cell_groups &boundary_ids &joints;
+    }
+  };
+
   /**
-   * A distributed triangulation that finds the local index of a coarse cell by
-   * bisection among runs of consecutive ids, of which there are few, not among
-   * all ids: deal.II looks up both cells in each comparison of a sort.
+   * A distributed triangulation of coarse cells alone, in the order of their
+   * ids. deal.II makes one of a TriangulationDescription, which it copies and
+   * sorts twice: that takes twice the time and memory of the triangulation.
    */
   template <int dim>
   class CellTriangulation
@@ -26,18 +55,16 @@ namespace quoin
   public:
     using dealii::parallel::fullydistributed::Triangulation<dim>::Triangulation;
 
-    /** Creates the triangulation as the base class does, with coarse cells in
-        ascending order of their ids. */
-    void create_triangulation(
-        const dealii::TriangulationDescription::Description<dim, dim>
-            &description) override;
+    /** Collective. */
+    void create(const MeshPart<dim> &part);
 
   private:
-    unsigned int coarse_cell_id_to_coarse_cell_index(
-        dealii::types::coarse_cell_id id) const override;
+    using Id = dealii::types::coarse_cell_id;
 
-    /** First id and first index of each run. */
-    std::vector<std::pair<dealii::types::coarse_cell_id, unsigned int>> runs;
+    unsigned int coarse_cell_id_to_coarse_cell_index(Id id) const override;
+    Id coarse_cell_index_to_coarse_cell_id(unsigned int index) const override;
+
+    std::vector<Id> ids;
   };
 
   /**
