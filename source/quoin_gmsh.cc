@@ -8,11 +8,11 @@
 //
 // with the words of the entry Mesh/Triangles and 2, 3 or 0, the dimension of
 // the file: three if it has tetrahedra or is a geometry with volumes; edges are
-// halved REFINEMENTS times.
-// A GmshMesh goes to the standard output; with COPY.msh the mesh goes there,
-// and of the GmshMesh only the errors are set. gmsh crashes on many damaged
-// files and ends the process at some commands of a geometry: then this process
-// ends and the answer is incomplete.
+// halved REFINEMENTS times, or quoin does it if all of a plane mesh are
+// straight. A GmshMesh goes to the standard output; with COPY.msh the mesh goes
+// there, and of the GmshMesh only the errors are set. gmsh crashes on many
+// damaged files and ends the process at some commands of a geometry: then this
+// process ends and the answer is incomplete.
 
 #include <quoin/mesh/gmsh_mesh.h>
 
@@ -423,6 +423,21 @@ namespace
     return has_elements(3) || (!is_mesh && !volumes.empty()) ? 3 : 2;
   }
 
+  /** Whether quoin may halve the edges: gmsh puts new nodes on the curves, and
+      in the middle of edges of a mesh file. */
+  bool has_straight_curves()
+  {
+    gmsh::vectorpair curves;
+    gmsh::model::getEntities(curves, 1);
+    return std::all_of(curves.begin(), curves.end(),
+                       [](const auto &curve)
+                       {
+                         std::string type;
+                         gmsh::model::getType(curve.first, curve.second, type);
+                         return type == "Line" || type == "Discrete curve";
+                       });
+  }
+
   /** Open and mesh @p file, then read it or write it to @p copy if given. */
   GmshMesh answer(const std::string &file, const std::string &kind,
                   const int wanted, const int refinements,
@@ -445,13 +460,19 @@ namespace
                  "plain'.");
       if (!has_elements(dimension) && (dimension == 2 || !is_mesh))
         make_elements(dimension, quadrangles);
-      for (int i = 0; i < refinements; ++i)
+      const bool quoin_halves
+          = dimension == 2 && copy.empty() && has_straight_curves();
+      for (int i = 0; i < refinements && !quoin_halves; ++i)
         gmsh::model::mesh::refine();
       mesh.gmsh_errors = logged_errors();
       if (!mesh.gmsh_errors.empty())
         return mesh;
       if (copy.empty())
-        return Reader(dimension, quadrangles).read();
+      {
+        mesh            = Reader(dimension, quadrangles).read();
+        mesh.n_halvings = quoin_halves ? refinements : 0;
+        return mesh;
+      }
       gmsh::write(copy);
     }
     catch (const Refusal &refusal)

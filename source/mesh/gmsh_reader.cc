@@ -5,6 +5,7 @@
 #include <quoin/mesh/crossed_triangles.h>
 #include <quoin/mesh/gmsh_process.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/mesh/halved_edges.h>
 #include <quoin/mesh/mixed_tetrahedra.h>
 
 #include <deal.II/base/mpi.h>
@@ -96,9 +97,11 @@ namespace quoin
       {
         mesh.cells = std::move(read.triangles);
         mesh.faces = std::move(read.lines);
-        add_crossed_triangles(
-            { std::move(read.quadrangles), std::move(read.quadrangle_group) },
-            mesh);
+        Quadrangles quadrangles{ std::move(read.quadrangles),
+                                 std::move(read.quadrangle_group) };
+        for (unsigned int i = 0; i < read.n_halvings; ++i)
+          halve_edges(mesh, quadrangles);
+        add_crossed_triangles(quadrangles, mesh);
         mesh.quadratic = cells.kind == TriangleKind::quadratic;
       }
       else

@@ -1,47 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/mesh/edge_middles.h>
 #include <quoin/mesh/mixed_tetrahedra.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <unordered_map>
 #include <utility>
 
 namespace quoin
 {
   namespace
   {
-    /** Vertices in the middles of edges, which edges of several cells share. */
-    class EdgeMiddles
-    {
-    public:
-      explicit EdgeMiddles(std::vector<dealii::Point<3>> &vertices)
-        : vertices(vertices)
-      {
-      }
-
-      unsigned int operator()(const unsigned int a, const unsigned int b)
-      {
-        const auto [low, high]     = std::minmax(a, b);
-        const auto [place, is_new] = numbers.emplace(
-            std::uint64_t(low) << 32U | high, vertices.size());
-        if (is_new)
-          vertices.push_back(
-              dealii::Point<3>(0.5 * (vertices[a] + vertices[b])));
-        return place->second;
-      }
-
-    private:
-      std::vector<dealii::Point<3>> &vertices;
-      std::unordered_map<std::uint64_t, unsigned int> numbers;
-    };
-
     /** Appends to @p parts the four cells of the octahedron between the middles
         of the edges of @p cell. */
     void cut_octahedron(const std::array<unsigned int, 4> &cell,
                         const std::vector<dealii::Point<3>> &vertices,
-                        EdgeMiddles &middle,
+                        EdgeMiddles<3> &middle,
                         std::vector<std::array<unsigned int, 4>> &parts)
     {
       std::array<unsigned int, 4> best = cell;

@@ -29,6 +29,8 @@ namespace quoin
      * curves or surfaces.
      */
     unsigned int dimension = 2;
+    /** How many times halve_edges() is still to halve all edges. */
+    unsigned int n_halvings = 0;
 
     std::vector<std::array<double, 3>> vertices; /**< [m] */
     std::vector<std::array<unsigned int, 4>> tetrahedra;
@@ -50,6 +52,7 @@ namespace quoin
       channel(gmsh_errors);
       channel(refusal);
       channel(dimension);
+      channel(n_halvings);
       channel(vertices);
       channel(tetrahedra);
       channel(triangles);

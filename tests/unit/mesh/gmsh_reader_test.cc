@@ -138,6 +138,30 @@ TEST(GmshReader, HalvesEdges)
   expect_two_squares(refined);
 }
 
+TEST(GmshReader, HalvesStraightEdges)
+{
+  const std::string path = write("straight.geo", two_squares + names);
+  for (const TriangleKind kind : { TriangleKind::plain, TriangleKind::crossed })
+  {
+    const MeshData<2> coarse = read_gmsh(path, kind);
+    const MeshData<2> fine   = read_gmsh(path, CellOptions(kind, 2));
+    EXPECT_EQ(fine.cells.size(), 16 * coarse.cells.size());
+    EXPECT_EQ(fine.faces.size(), 4 * coarse.faces.size());
+    expect_two_squares(fine);
+    // By Euler's formula all triangles share their nodes.
+    std::set<std::array<unsigned int, 2>> edges;
+    for (const auto &cell : fine.cells)
+      for (unsigned int k = 0; k < 3; ++k)
+        edges.insert({ std::min(cell[k], cell[(k + 1) % 3]),
+                       std::max(cell[k], cell[(k + 1) % 3]) });
+    EXPECT_EQ(fine.vertices.size() + fine.cells.size(), edges.size() + 1);
+    for (const auto &face : fine.faces)
+      EXPECT_EQ(edges.count(
+                    { std::min(face[0], face[1]), std::max(face[0], face[1]) }),
+                1U);
+  }
+}
+
 TEST(GmshReader, CutsQuadranglesCrosswise)
 {
   const std::string path = write("crossed.geo", two_squares + names);
