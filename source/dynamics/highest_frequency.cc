@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -35,6 +36,19 @@ namespace quoin
       return radius * std::cos(6.283185307179586 * uniform());
     }
 
+    /** So many degrees of freedom of two vectors fit the first cache. */
+    constexpr Eigen::Index piece = 1024;
+
+    /** Calls @p use (first entry, number of entries) for the pieces of vectors
+        of @p n entries: what it does one after the other takes them from memory
+        once. */
+    template <typename Use>
+    void for_each_piece(const Eigen::Index n, const Use &use)
+    {
+      for (Eigen::Index begin = 0; begin < n; begin += piece)
+        use(begin, std::min(piece, n - begin));
+    }
+
     /** The stiffness between unit masses: M^-1/2 K M^-1/2 of the degrees of
         freedom of this rank, dim of each deformable node and three of each
         rigid block. */
@@ -48,16 +62,18 @@ namespace quoin
           velocity(nodes.n_local(), dealii::Tensor<1, dim>()),
           force(nodes.n_local(), dealii::Tensor<1, dim>())
       {
+        const RigidBlocks &rigid = model.rigid_blocks();
+        scale.resize(n_nodal() + 3 * rigid.n_blocks());
+        double *next = scale.data();
         for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
           for (unsigned int d = 0; d < dim; ++d)
-            scale.push_back(1. / std::sqrt(mass[i]));
-        const RigidBlocks &rigid = model.rigid_blocks();
+            *next++ = 1. / std::sqrt(mass[i]);
         for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
         {
           const double factor = rigid_stage.mass_factor[b];
           const auto &block   = rigid.block(b);
           for (const double inertia : { block.mass, block.mass, block.inertia })
-            scale.push_back(1. / std::sqrt(factor * inertia));
+            *next++ = 1. / std::sqrt(factor * inertia);
         }
         if constexpr (dim == 2)
           if (model.contacts())
@@ -68,7 +84,7 @@ namespace quoin
           }
       }
 
-      unsigned int size() const
+      Eigen::Index size() const
       {
         return scale.size();
       }
@@ -98,8 +114,12 @@ namespace quoin
         return result;
       }
 
-      /** Collective. */
-      Eigen::VectorXd times(const Eigen::VectorXd &x)
+      /**
+       * Sets @p y to this times @p x less @p factor times @p y, and returns the
+       * product of @p x and @p y on this rank. Collective.
+       */
+      double multiply(const Eigen::VectorXd &x, const double factor,
+                      Eigen::VectorXd &y)
       {
         set_velocities(x);
         nodes.exchange().update_ghosts(velocity.data());
@@ -121,16 +141,25 @@ namespace quoin
             force[i][0] -= xx * vx + xy * vy;
             force[i][1] -= xy * vx + yy * vy;
           }
-        return scaled_forces();
+        take_rigid_forces(factor, y);
+        double product = 0.;
+        for_each_piece(n_nodal(),
+                       [&](const Eigen::Index begin, const Eigen::Index n)
+                       {
+                         auto part = y.segment(begin, n);
+                         part      = -scale.segment(begin, n).cwiseProduct(
+                                         flat(force).segment(begin, n))
+                                - factor * part;
+                         product += x.segment(begin, n).dot(part);
+                       });
+        const Eigen::Index n_rigid = size() - n_nodal();
+        return product + x.tail(n_rigid).dot(y.tail(n_rigid));
       }
 
     private:
       void set_velocities(const Eigen::VectorXd &x)
       {
-        unsigned int k = 0;
-        for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
-          for (unsigned int d = 0; d < dim; ++d, ++k)
-            velocity[i][d] = scale[k] * x[k];
+        flat(velocity) = scale.head(n_nodal()).cwiseProduct(x.head(n_nodal()));
         if constexpr (dim == 2)
           for_each_rigid_node(
               [&](const unsigned int k, const unsigned int i,
@@ -142,23 +171,33 @@ namespace quoin
               });
       }
 
-      Eigen::VectorXd scaled_forces() const
+      /** The part of rigid blocks in multiply(). */
+      void take_rigid_forces(const double factor, Eigen::VectorXd &y) const
       {
-        Eigen::VectorXd result = Eigen::VectorXd::Zero(size());
-        unsigned int k         = 0;
-        for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
-          for (unsigned int d = 0; d < dim; ++d, ++k)
-            result[k] = -scale[k] * force[i][d];
+        y.tail(size() - n_nodal()) *= -factor;
         if constexpr (dim == 2)
           for_each_rigid_node(
               [&](const unsigned int k, const unsigned int i,
                   const dealii::Tensor<1, 2> &arm)
               {
-                result[k] -= scale[k] * force[i][0];
-                result[k + 1] -= scale[k + 1] * force[i][1];
-                result[k + 2] -= scale[k + 2] * cross(arm, force[i]);
+                y[k] -= scale[k] * force[i][0];
+                y[k + 1] -= scale[k + 1] * force[i][1];
+                y[k + 2] -= scale[k + 2] * cross(arm, force[i]);
               });
-        return result;
+      }
+
+      /** Number of degrees of freedom of deformable nodes. */
+      Eigen::Index n_nodal() const
+      {
+        return Eigen::Index(dim) * nodes.n_deformable_nodes();
+      }
+
+      /** The components of @p vectors at deformable nodes, one after the
+          other. */
+      Eigen::Map<Eigen::VectorXd>
+      flat(AlignedArray<dealii::Tensor<1, dim>> &vectors) const
+      {
+        return { reinterpret_cast<double *>(vectors.data()), n_nodal() };
       }
 
       /** Calls @p use (first degree of freedom, node, its arm) for the nodes of
@@ -182,7 +221,7 @@ namespace quoin
       const Model<dim> &model;
       const NodeMap<dim> &nodes;
       const State<dim> state;
-      std::vector<double> scale;                /**< 1 / sqrt(mass) */
+      Eigen::VectorXd scale;                    /**< 1 / sqrt(mass) */
       std::vector<NodeStiffness<dim>> contacts; /**< contacts; may be empty */
       AlignedArray<dealii::Tensor<1, dim>> velocity, force;
     };
@@ -194,24 +233,27 @@ namespace quoin
                                    const RigidBlockStage &rigid_stage,
                                    std::vector<KnownFrequency> &known)
   {
+    using dealii::Utilities::MPI::sum;
     const MPI_Comm communicator = model.nodes().communicator();
-    const auto product = [&](const Eigen::VectorXd &a, const Eigen::VectorXd &b)
-    { return dealii::Utilities::MPI::sum(a.dot(b), communicator); };
-
     ScaledStiffness<dim> stiffness(model, mass, rigid_stage);
-    const double n
-        = dealii::Utilities::MPI::sum(double(stiffness.size()), communicator);
-    Eigen::VectorXd v      = stiffness.random_vector();
-    Eigen::VectorXd before = Eigen::VectorXd::Zero(v.size());
-    v /= std::sqrt(product(v, v));
+    const double n    = sum(double(stiffness.size()), communicator);
+    Eigen::VectorXd v = stiffness.random_vector();
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(v.size()); // and the last v
+    v /= std::sqrt(sum(v.squaredNorm(), communicator));
     std::vector<double> diagonal, beside;
     double beta = 0.;
     while (diagonal.size() < n_iterations)
     {
-      Eigen::VectorXd w  = stiffness.times(v) - beta * before;
-      const double alpha = product(v, w);
-      w -= alpha * v;
-      beta = std::sqrt(product(w, w));
+      const double alpha = sum(stiffness.multiply(v, beta, w), communicator);
+      double squares     = 0.;
+      for_each_piece(v.size(),
+                     [&](const Eigen::Index begin, const Eigen::Index n)
+                     {
+                       auto part = w.segment(begin, n);
+                       part -= alpha * v.segment(begin, n);
+                       squares += part.squaredNorm();
+                     });
+      beta = std::sqrt(sum(squares, communicator));
       diagonal.push_back(alpha);
       // The start is in few eigenvectors, of which all are found.
       if (diagonal.size() >= n || beta <= 1e-8 * std::abs(diagonal[0]))
@@ -229,8 +271,8 @@ namespace quoin
           return known[found].squared;
       }
       beside.push_back(beta);
-      before = v;
-      v      = w / beta;
+      v.swap(w);
+      v /= beta;
     }
     const unsigned int k = diagonal.size();
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
