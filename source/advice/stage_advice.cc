@@ -454,11 +454,12 @@ namespace quoin
             || is_platen[nodes.cells().group[c]])
           continue;
         const auto &cell = nodes.cells().nodes[c];
-        std::vector<double> edges;
+        std::array<double, dim *(dim + 1) / 2> edges;
+        unsigned int n_edges = 0;
         for (unsigned int k = 0; k <= dim; ++k)
           for (unsigned int l = 0; l < k; ++l)
-            edges.push_back(
-                nodes.point(cell[k]).distance(nodes.point(cell[l])));
+            edges[n_edges++]
+                = nodes.point(cell[k]).distance(nodes.point(cell[l]));
         std::sort(edges.begin(), edges.end());
         const double edge   = edges[dim == 2 ? 1 : 2];
         CellSize<dim> &size = sizes[material_of_cell(model, c)];

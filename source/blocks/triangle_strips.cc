@@ -4,7 +4,6 @@
 #include <quoin/blocks/triangle_strips.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 namespace quoin
@@ -26,8 +25,8 @@ namespace quoin
           visited_by(members.size(), 0)
       {
         number_nodes(cells);
-        find_neighbours();
         find_triangles_around_nodes();
+        find_neighbours();
         free_neighbours.resize(members.size(), 0);
         for (unsigned int t = 0; t < triangles.size(); ++t)
           for (const unsigned int other : neighbours[t])
@@ -93,33 +92,6 @@ namespace quoin
         }
       }
 
-      /** neighbours[t][i] is the triangle across the edge opposite corner i. */
-      void find_neighbours()
-      {
-        using Side = std::pair<std::uint64_t, unsigned int>;
-        std::vector<Side> sides;
-        sides.reserve(3 * triangles.size());
-        for (unsigned int t = 0; t < triangles.size(); ++t)
-          for (unsigned int i = 0; i < 3; ++i)
-          {
-            const std::uint64_t a = triangles[t][(i + 1) % 3];
-            const std::uint64_t b = triangles[t][(i + 2) % 3];
-            sides.emplace_back((std::min(a, b) << 32) | std::max(a, b),
-                               3 * t + i);
-          }
-        std::sort(sides.begin(), sides.end());
-
-        neighbours.assign(triangles.size(), { none, none, none });
-        for (std::size_t k = 0; k + 1 < sides.size(); ++k)
-          if (sides[k].first == sides[k + 1].first)
-          {
-            const unsigned int s = sides[k].second, t = sides[k + 1].second;
-            neighbours[s / 3][s % 3] = t / 3;
-            neighbours[t / 3][t % 3] = s / 3;
-            ++k;
-          }
-      }
-
       void find_triangles_around_nodes()
       {
         first_around.assign(node_names.size() + 1, 0);
@@ -133,6 +105,25 @@ namespace quoin
         for (unsigned int t = 0; t < triangles.size(); ++t)
           for (const unsigned int node : triangles[t])
             around[next[node]++] = t;
+      }
+
+      /** neighbours[t][i] is the triangle across the edge opposite corner i. */
+      void find_neighbours()
+      {
+        neighbours.assign(triangles.size(), { none, none, none });
+        for (unsigned int t = 0; t < triangles.size(); ++t)
+          for (unsigned int i = 0; i < 3; ++i)
+          {
+            const unsigned int a = triangles[t][(i + 1) % 3];
+            const unsigned int b = triangles[t][(i + 2) % 3];
+            for (unsigned int k = first_around[a]; k < first_around[a + 1]; ++k)
+            {
+              const auto &other = triangles[around[k]];
+              if (around[k] != t
+                  && (other[0] == b || other[1] == b || other[2] == b))
+                neighbours[t][i] = around[k];
+            }
+          }
       }
 
       unsigned int next_start()

@@ -285,6 +285,8 @@ namespace quoin
           add_platen(*constraint, time, model, bodies, force, sums);
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
       {
+        if (force[i] == dealii::Tensor<1, dim>())
+          continue; // most nodes
         double *sum   = &sums[n * bodies.body(nodes.block_of_node(i))];
         double square = 0.;
         for (unsigned int d = 0; d < dim; ++d)
