@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "space_box.h"
 #include "test_meshes.h"
 
 #include <quoin/mesh/block_numbering.h>
@@ -42,7 +43,41 @@ namespace
         p[d] = std::min(p[d], mesh.vertices[v][d]);
     return p;
   }
+  /** The cells of one block lie along the Hilbert curve as deal.II has it. */
+  template <int dim>
+  void expect_on_curve(const BlockMesh<dim> &mesh)
+  {
+    constexpr int n_bits = dim == 2 ? 31 : 21;
+    std::vector<dealii::Point<dim>> centres(mesh.n_cells());
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+    {
+      for (const unsigned int v : mesh.cells[c])
+        centres[c] += mesh.vertices[v];
+      centres[c] = centres[c] / (dim + 1.);
+    }
+    std::uint64_t last = 0;
+    for (const auto &place :
+         dealii::Utilities::inverse_Hilbert_space_filling_curve(centres,
+                                                                n_bits))
+    {
+      const auto next = dealii::Utilities::pack_integers<dim>(place, n_bits);
+      EXPECT_GE(next, last);
+      last = next;
+    }
+  }
 } // namespace
+
+TEST(BlockNumbering, FollowsTheHilbertCurve)
+{
+  expect_on_curve(split_into_blocks(grid(13, 7, "rock"), SplitOptions()));
+  MeshData<3> box;
+  const Count n   = { 5, 3, 7 };
+  box.vertices    = box_points(n, 0.3, { -1., 2., 0.1 });
+  box.cells       = box_cells(n);
+  box.group_names = { "rock" };
+  box.cell_group.assign(box.cells.size(), 0);
+  expect_on_curve(split_into_blocks(box, SplitOptions()));
+}
 
 TEST(BlockNumbering, FollowsTheBoundaryOfEachBlock)
 {
