@@ -95,6 +95,18 @@ namespace quoin
           "T / 2), or give a 'Kinetic energy limit'.");
     }
 
+    /** Warns of a load pattern whose factor nothing brings to that at rest. */
+    void check_pattern_damping(const StageOfRun &run, Checks &checks)
+    {
+      checks.warn_if(
+          run.stage.pattern && run.stage.damping == DampingType::none,
+          "it has a 'Load pattern' and 'Damping = none': blocks vibrate on "
+          "their joints, and the load factor is not what they bear at rest, "
+          "but up to twice that where they rock and two thirds where they "
+          "slide. Take 'local', or 'Rayleigh' with a stiffness coefficient "
+          "where blocks rock.");
+    }
+
     /** A motion that loads prescribe. */
     struct PrescribedShaking
     {
@@ -714,6 +726,7 @@ namespace quoin
     Advice advice;
     Checks checks(advice, "stage " + run.stage.name + ": ");
     check_control(run, checks);
+    check_pattern_damping(run, checks);
     check_damping(run, checks);
     check_supports(run, checks);
     check_moving_water(run, checks);

@@ -90,8 +90,11 @@ namespace quoin
       // an equilibrium, but carries a part of the weight of steady motion.
       if (stage.slows_loads() || section.text("End") == "factor of safety")
         return DampingType::adaptive;
-      return stage.end == StageEnd::static_ratio ? DampingType::local
-                                                 : DampingType::none;
+      // A load pattern asks what the model bears at rest.
+      return stage.end == StageEnd::static_ratio
+                     || !section.text("Load pattern").empty()
+                 ? DampingType::local
+                 : DampingType::none;
     }
 
     void enter_damping(ParameterEntries &entries, StageParameters &stage)
@@ -107,10 +110,11 @@ namespace quoin
           "Damping of the stage. local: a fraction of the unbalanced force "
           "opposes the velocity; adaptive: mass-proportional with a "
           "coefficient that keeps the damping power at half the rate of "
-          "kinetic energy; Rayleigh: alpha and beta; automatic: local with "
-          "'End = static ratio', adaptive with 'Kinetic energy limit' or 'End "
-          "= factor of safety', otherwise none. Explicit stages that end at "
-          "equilibrium need damping, or a viscous or free-field boundary.");
+          "kinetic energy; Rayleigh: alpha and beta; automatic: adaptive with "
+          "'Kinetic energy limit' or 'End = factor of safety', local with 'End "
+          "= static ratio' or a 'Load pattern', otherwise none. Explicit "
+          "stages that end at equilibrium need damping, or a viscous or "
+          "free-field boundary.");
       if (const ParameterSection *section = entries.read_section())
         stage.damping = damping ? *damping : automatic_damping(*section, stage);
       double local_coefficient = default_local_damping;

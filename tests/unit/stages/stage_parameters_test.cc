@@ -80,7 +80,15 @@ TEST(StageParameters, DampingThatSuitsTheEnd)
   EXPECT_EQ(slow.local_coefficient, 0.);
   EXPECT_EQ(read("set End = factor of safety\n").damping,
             DampingType::adaptive);
+  const std::string pattern = "set Duration = 1\nset Load pattern = push\n"
+                              "set Control function = 1e-3 * t^2\n";
+  const auto pushed         = read(pattern);
+  EXPECT_EQ(pushed.damping, DampingType::local);
+  EXPECT_EQ(pushed.local_coefficient, default_local_damping);
+  EXPECT_EQ(read(pattern + "set Kinetic energy limit = 1e-4\n").damping,
+            DampingType::adaptive);
   // What is given holds, also none.
+  EXPECT_EQ(read(pattern + "set Damping = none\n").damping, DampingType::none);
   EXPECT_EQ(read("set End = static ratio\nset Damping = none\n").damping,
             DampingType::none);
 }
