@@ -140,6 +140,15 @@ TEST(GmshReader, HalvesEdges)
 
 TEST(GmshReader, HalvesStraightEdges)
 {
+  const auto longest_edge = [](const MeshData<2> &mesh)
+  {
+    double longest = 0.;
+    for (const auto &cell : mesh.cells)
+      for (unsigned int k = 0; k < 3; ++k)
+        longest = std::max(longest, mesh.vertices[cell[k]].distance(
+                                        mesh.vertices[cell[(k + 1) % 3]]));
+    return longest;
+  };
   const std::string path = write("straight.geo", two_squares + names);
   for (const TriangleKind kind : { TriangleKind::plain, TriangleKind::crossed })
   {
@@ -148,6 +157,10 @@ TEST(GmshReader, HalvesStraightEdges)
     EXPECT_EQ(fine.cells.size(), 16 * coarse.cells.size());
     EXPECT_EQ(fine.faces.size(), 4 * coarse.faces.size());
     expect_two_squares(fine);
+    if (kind == TriangleKind::plain)
+    {
+      EXPECT_NEAR(longest_edge(fine), 0.25 * longest_edge(coarse), 1e-12);
+    }
     // By Euler's formula all triangles share their nodes.
     std::set<std::array<unsigned int, 2>> edges;
     for (const auto &cell : fine.cells)
