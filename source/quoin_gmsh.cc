@@ -424,9 +424,22 @@ namespace
   }
 
   /** Whether quoin may halve the edges: gmsh puts new nodes on the curves, and
-      in the middle of edges of a mesh file. */
+      in the middle of edges of a mesh file, but for those of second order,
+      which it also makes ones of the first. */
   bool has_straight_curves()
   {
+    std::vector<int> types;
+    gmsh::model::mesh::getElementTypes(types);
+    for (const int type : types)
+    {
+      std::string name;
+      int dimension = 0, order = 0, n_nodes = 0, n_primary = 0;
+      std::vector<double> places;
+      gmsh::model::mesh::getElementProperties(type, name, dimension, order,
+                                              n_nodes, places, n_primary);
+      if (order > 1)
+        return false;
+    }
     gmsh::vectorpair curves;
     gmsh::model::getEntities(curves, 1);
     return std::all_of(curves.begin(), curves.end(),

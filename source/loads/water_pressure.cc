@@ -336,6 +336,11 @@ namespace quoin
     last_level = level;
     last_moves = moves;
     last_forces.assign(node_list.size(), dealii::Tensor<1, dim>());
+    // A level that is no number must not pass for one below all faces.
+    if (!std::isfinite(level))
+      for (dealii::Tensor<1, dim> &force : last_forces)
+        for (unsigned int d = 0; d < dim; ++d)
+          force[d] = level;
     for (const Face &face : faces)
     {
       const auto weights = weights_of(face, wet_part(face, level, false).depth);

@@ -479,8 +479,9 @@ namespace quoin
     void allow_for_imbalance(Parameters &parameters)
     {
       /** Share of its traction that a joint may lose so, by 'Force ratio',
-          which is that of the forces of all of the model [-]. */
-      constexpr double most = 100.;
+          which is that of the forces of all of the model [-]. Larger ones would
+          take the steps of a slow reversal for noise. */
+      constexpr double most = 1.;
       if (!parameters.is_implicit)
         return;
       for (JointSetParameters &set : parameters.model.joints)
