@@ -473,23 +473,6 @@ namespace quoin
                           + ". Correct that, or take '" + curve
                           + "' out of 'Curves'.");
     }
-
-    /** Lets continuously yielding joints take no step for a reversal that is
-        within what the implicit solver leaves out of balance. */
-    void allow_for_imbalance(Parameters &parameters)
-    {
-      /** Share of its traction that a joint may lose so, by 'Force ratio',
-          which is that of the forces of all of the model [-]. Larger ones would
-          take the steps of a slow reversal for noise. */
-      constexpr double most = 1.;
-      if (!parameters.is_implicit)
-        return;
-      for (JointSetParameters &set : parameters.model.joints)
-        if (auto *law = std::get_if<ContinuouslyYieldingLaw>(&set.law))
-          law->noise = std::max(
-              law->noise,
-              std::min(1e-3, most * parameters.implicit.force_ratio));
-    }
   } // namespace
 
   void read_block_model(const ParameterSection &top, Parameters &parameters)
@@ -532,7 +515,6 @@ namespace quoin
     check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));
-    allow_for_imbalance(parameters);
     if (parameters.is_implicit
         && parameters.implicit.linear_solver == LinearSolverType::iterative
         && std::any_of(parameters.stages.begin(), parameters.stages.end(),

@@ -113,9 +113,8 @@ namespace quoin
    * the size of tau by the component of slip along it; across it the joint is
    * elastic, by which tau turns, and unloads until it slips straight across
    * tau, with r that of the size there. A step that takes less than a share
-   * 'noise' off tau leaves r as it is: a joint that is held would get its
-   * elastic stiffness back by the rounding of its slip, or by what a solver
-   * leaves out of balance. tau stays where the
+   * 'rounding' off tau leaves r as it is: a joint that is held would get its
+   * elastic stiffness back by the rounding of its slip. tau stays where the
    * pressure changes ks(s); what that changes of tau^2/(2 ks) is booked as
    * friction, either way. An open joint transfers nothing.
    */
@@ -134,9 +133,8 @@ namespace quoin
 
     /** r is not above this [-]. */
     static constexpr double largest_reload = 0.75;
-    /** Share of tau that steps may take away without being a reversal: by
-        rounding alone, if not more [-]. */
-    double noise = 1e-10;
+    /** Share of tau that is left to the rounding of slip [-]. */
+    static constexpr double rounding = 1e-10;
 
     /** The law of a set of joints, or its entries of the parameter file. */
     static ContinuouslyYieldingLaw read(LawEntries &entries);
@@ -274,7 +272,7 @@ namespace quoin
 
     bool is_loaded = value_of(size) > 0.;
     if (value_of(before * moved)
-        < -noise * value_of(before * constant_slip<dim, Number>(elastic)))
+        < -rounding * value_of(before * constant_slip<dim, Number>(elastic)))
     {
       is_loaded     = value_of(trial * moved) > 0.;
       tau           = is_loaded ? distance_of_line(before, moved) : size;

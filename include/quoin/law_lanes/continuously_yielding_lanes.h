@@ -150,7 +150,8 @@ namespace quoin
         const Slips elastic = (1. / stiffness_before) * before;
         moved = points.slip - Slips::load(points.slips_of(at.plastic_slip))
                 - elastic;
-        turns = dot(before, moved + laws.law.noise * elastic) < 0.;
+        turns = dot(before, moved + ContinuouslyYieldingLaw::rounding * elastic)
+                < 0.;
         if constexpr (dim == 2)
           nearest = none;
         else

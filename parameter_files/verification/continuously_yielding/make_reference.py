@@ -66,24 +66,3 @@ np.savetxt(os.path.join(HERE, "reference.csv"),
                          shear, shear]),
            delimiter=",", fmt="%.9g", comments="",  # 1 m^2
            header="time [s],slip [m],opening [m],normal [Pa],shear [Pa],force [N]")
-
-# On one way, whatever it is held at: in steps to 1.4 MPa, and to 0.4 mm.
-way = np.linspace(0, 1e-3, 2001)
-borne = sheared(way)[0]
-peak = np.argmax(borne)
-times = np.arange(0.1, 0.505, 5e-3)
-shear = (1e6 * np.clip((times - 0.1) / 0.1, 0, 1)
-         + 0.4e6 * np.clip((times - 0.4) / 0.1, 0, 1))
-np.savetxt(os.path.join(HERE, "reference_held.csv"),
-           np.transpose([times, np.interp(shear, borne[:peak], way[:peak]),
-                         shear]),
-           delimiter=",", fmt="%.9g", comments="",
-           header="time [s],slip [m],shear [Pa]")
-
-times = np.arange(0.2, 0.805, 5e-3)
-slip = 1e-4 * (1 - np.cos(np.pi * np.clip((times - 0.2) / 0.2, 0, 1))
-               + 1 - np.cos(np.pi * np.clip((times - 0.6) / 0.2, 0, 1)))
-np.savetxt(os.path.join(HERE, "reference_held_slip.csv"),
-           np.transpose([times, slip, np.interp(slip, way, borne)]),
-           delimiter=",", fmt="%.9g", comments="",
-           header="time [s],slip [m],shear [Pa]")

@@ -139,30 +139,6 @@ TEST(ContinuouslyYieldingLaw, RoundingTakesNothingBack)
   EXPECT_NEAR(held.lost, through.lost, 1e-8 * through.lost);
 }
 
-// What an implicit solver leaves out of balance is more than rounding: it takes
-// up to a share 'noise' off the traction in a step.
-TEST(ContinuouslyYieldingLaw, ImbalanceTakesNothingBack)
-{
-  auto held      = closed(yielding(), -pressure);
-  held.law.noise = 1e-4;
-  auto through   = held;
-  for (auto *walk : { &held, &through })
-    walk->slide(-pressure, 2e-4, 100);
-  const double opening = held.opening, slip = held.slip;
-  const double tau = held.point.shear_traction, ks = shear_stiffness();
-  for (unsigned int i = 0; i < 30; ++i)
-    held.move(opening, slip + (i % 3 - 1.) * 0.4e-4 * tau / ks);
-  held.move(opening, slip);
-  EXPECT_EQ(held.point.reload, 0.);
-  for (auto *walk : { &held, &through })
-    walk->slide(-pressure, 4e-4, 100);
-  EXPECT_NEAR(held.point.shear_traction, through.point.shear_traction,
-              1e-3 * pressure);
-  // What takes more is a reversal.
-  held.move(opening, held.slip - 2e-4 * held.point.shear_traction / ks);
-  EXPECT_GT(held.point.reload, 0.1);
-}
-
 TEST(ContinuouslyYieldingLaw, VibrationsOfPressureLeaveShearAlone)
 {
   auto walk = closed(yielding(), -pressure);

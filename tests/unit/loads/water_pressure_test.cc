@@ -254,3 +254,12 @@ TEST(WaterPressure, ReturnsToTheMesh)
   load.return_to_mesh();
   EXPECT_EQ(forces_of(load, in_mesh), before);
 }
+
+TEST(WaterPressure, ALevelThatIsNoNumberIsNotDryGround)
+{
+  const BlockMesh<2> mesh = rectangle();
+  const TestNodes nodes{ mesh };
+  const NodalLoad<2> load = water_on<2>(nodes, plane_faces, "sqrt(t - 1) + 3");
+  EXPECT_TRUE(
+      std::isnan(forces_of(load, moved<2>(nodes, 0., {})).front().norm()));
+}
