@@ -45,7 +45,7 @@ def main():
     options = parser.parse_args()
     with open(os.path.join(options.build, "compile_commands.json")) as stream:
         entries = [entry for entry in json.load(stream)
-                   if "quoin_kernels.dir" in entry["command"]
+                   if "quoin_library.dir" in entry["command"]
                    and options.only in entry["file"]
                    and any(part in entry["file"] for part in MODULES)]
     if not entries:
