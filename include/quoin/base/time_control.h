@@ -4,6 +4,7 @@
 #ifndef quoin_base_time_control_h
 #define quoin_base_time_control_h
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 
@@ -32,8 +33,12 @@ namespace quoin
         return false;
       if (interval <= dt)
         return true;
-      const double offset = time - std::round(time / interval) * interval;
-      return offset > -0.5 * dt && offset <= 0.5 * dt;
+      // Where a multiple lies midway between two steps rounding decides, for
+      // each of them by itself, and both or none would be due: the border is
+      // shifted by a share of the step that no ratio of times is.
+      constexpr double shift = 1e-3 / constants::pi;
+      const double offset    = time - std::round(time / interval) * interval;
+      return offset > (shift - 0.5) * dt && offset <= (shift + 0.5) * dt;
     }
 
   private:
