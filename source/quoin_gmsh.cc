@@ -424,8 +424,8 @@ namespace
   }
 
   /** Whether quoin may halve the edges: gmsh puts new nodes on the curves, and
-      in the middle of edges of a mesh file, but for those of second order,
-      which it also makes ones of the first. */
+      in the middle of edges of a mesh file. Elements of second order are left
+      to gmsh, which makes them ones of the first as it refines them. */
   bool has_straight_curves()
   {
     std::vector<int> types;

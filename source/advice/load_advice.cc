@@ -445,8 +445,8 @@ namespace quoin
                    "height of the model.");
     }
 
-    /** The same of a level @p water that differs from place to place.
-        Collective. */
+    /** Warns if @p water, whose level differs from place to place, is below all
+        of the boundary of @p load. Collective. */
     template <int dim>
     void check_wets(const LoadParameters &load, const LoadField &water,
                     const NodeMap<dim> &nodes, Advice &advice)

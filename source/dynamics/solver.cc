@@ -69,7 +69,7 @@ namespace quoin
       load.set_mass(model.mass());
       load.begin_stage(false, {});
       load.follow(state);
-      // A resumed stage begins with the loads of its start.
+      // The loads of a pattern are constant, in a resumed stage, too.
       if (stage.pattern && is_among(load.name(), stage.pattern->loads))
         load.return_to_mesh();
     }

@@ -224,8 +224,7 @@ namespace quoin
     {
       water = std::make_shared<WaterPressure<dim>>(*pressure.field, node_map,
                                                    faces, thickness);
-      if (!pressure.field->line().empty())
-        pressure.value = TimeFunction("1", "./");
+      pressure.value  = mixture(*pressure.field, sample_places(faces), dim - 1);
       others.pressure = {};
     }
     if (!parameters.is_pressure_alone() || !water)

@@ -73,7 +73,7 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
     result.pressed = sums[0];
     result.pulled  = sums[1];
-    // Of equal pulls that of the first rank counts, on all ranks.
+    // All ranks take the largest pull, of equal ones that of the first rank.
     struct
     {
       double value;

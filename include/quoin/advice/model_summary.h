@@ -39,9 +39,10 @@ namespace quoin
                                       const NodeMap<dim> &nodes);
 
   /**
-   * The same of the joint between two rigid blocks, or groups of platens, for
-   * which it is worst, if it is more than 10 %: where nothing but joints gives
-   * way tilts are wrong by as much. Collective.
+   * A line about the joint that its few faces make too stiff in rotation most,
+   * of those between two rigid blocks or groups of platens, if it is by more
+   * than 10 %: where nothing but joints gives way tilts are wrong by as much.
+   * Collective.
    */
   template <int dim>
   std::vector<std::string> rigid_face_lines(const Parameters &parameters,

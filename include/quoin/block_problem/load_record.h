@@ -94,8 +94,9 @@ namespace quoin
      * the largest mean over a twentieth of the rows of what neither motion nor
      * damping took. Or that a platen which presses its boundary pulls a part of
      * it, in a twentieth of the rows or more, with more than 5 % of the largest
-     * force that it pressed with, and less than 80 % of what it presses with at
-     * the same time: one that pulls more is a clamp. Empty: nothing.
+     * force that it has pressed with until then, and less than 80 % of what it
+     * presses with at the same time: one that pulls more is a clamp. Empty:
+     * nothing.
      */
     std::string warning() const;
 

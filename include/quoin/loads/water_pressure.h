@@ -95,7 +95,7 @@ namespace quoin
     dealii::Tensor<1, dim> outward(const Face &face) const;
 
     LoadField water;
-    /** Of the nodes of faces that other ranks own. */
+    /** It brings the nodes of faces that other ranks own. */
     std::unique_ptr<const NodeExchange> exchange;
     std::vector<unsigned int> node_list;
     std::vector<Face> faces;
